@@ -6,7 +6,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/orientation.hpp"
-#include "common/mesh/submesh.hpp"
+#include "common/mesh/reorder.hpp"
 #include "common/run/memory.hpp"
 #include "common/run/parallel.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the search asks about a mesh, prepared once: which tets are usable, the facets, and the surface tags on them.
+// Tables of a mesh for the search, made once: which tets are usable, the facets, and the surface tags on them.
 
 #include <array>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace hexpipe::candidates {
 
-// What had to be done to the mesh before it could be searched.
+// Changes to the mesh before it could be searched.
 struct MeshFindings {
   TetOrientation orientation;  // inverted and flat tets are unusable
   std::int64_t derived_triangles = 0;

@@ -47,7 +47,7 @@ struct OpenCorner {
   std::uint8_t quad = 0;      // number in the topology
 };
 
-// What to do with one corner. All other corners named here are placed already.
+// How to find one corner. All other corners named here are placed already.
 struct SearchStep {
   std::uint8_t corner = 0;
   bool is_beside_first = false;      // an edge joins it to the first corner

@@ -37,7 +37,7 @@ std::optional<Candidates> with_dense_ids(const Candidates& candidates) {
   const std::vector<TetIndex> tets = sorted_distinct(candidates.tets);
   for (auto& row : dense.vertices)
     for (Vertex& v : row)
-      if (v >= 0) renumber(v, vertices);
+      if (v != no_index) renumber(v, vertices);
   for (TetIndex& tet : dense.tets) renumber(tet, tets);
   return dense;
 }

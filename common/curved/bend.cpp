@@ -21,7 +21,7 @@ constexpr int spreading_rounds = 40;
 constexpr int patient_rounds = 20;
 // Steps of halving the interval of the share that is left.
 constexpr int bisections = 6;
-// What is bent by less, in lengths of the chord, is straight: coordinates of files have errors of this size.
+// An edge that is bent by less, in lengths of the chord, is straight: coordinates of files have errors of this size.
 constexpr double straight_enough = 1e-6;
 
 constexpr std::size_t most_nodes = 27;

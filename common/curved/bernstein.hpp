@@ -54,7 +54,7 @@ class BernsteinBasis {
 // The basis of products of polynomials of the two.
 BernsteinBasis product_basis(const BernsteinBasis& a, const BernsteinBasis& b);
 
-// What the product of two terms adds to a term of the product. The weights for one term of the product add up to 1.
+// The product of two terms adds to a term of the product, with a weight. The weights for one term add up to 1.
 struct ProductTerm {
   std::int32_t a, b, product;
   double weight;

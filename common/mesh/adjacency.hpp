@@ -13,8 +13,6 @@ namespace hexpipe {
 // Facet i of a tet is opposite its corner i (TetTopology::triangles).
 class TetAdjacency {
  public:
-  static constexpr std::int32_t none = no_index;
-
   // Throws DataError naming `source` when a facet belongs to more than two tets; the message counts tets and vertices
   // from 1. `numbers` holds the numbers that the source gives the tets, from 0, if they differ from their places here.
   TetAdjacency(const TetMesh& mesh, const char* source, std::span<const std::int32_t> numbers = {});

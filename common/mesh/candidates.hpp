@@ -15,7 +15,7 @@ namespace hexpipe {
 using CandidateIndex = std::int32_t;
 
 struct Candidates {
-  std::vector<std::array<Vertex, 8>> vertices;  // in the numbering of cell_topology.hpp, padded with -1
+  std::vector<std::array<Vertex, 8>> vertices;  // in the numbering of cell_topology.hpp, padded with no_index
   std::vector<CellKind> kind;
   std::vector<double> quality;  // the least scaled Jacobian, over the corners or over the whole element
   std::vector<double> volume;
@@ -42,21 +42,21 @@ struct Candidates {
 // the memory for the rest is reserved at once, so that the list need not move again and again.
 void append(Candidates& to, const Candidates& from, double share_of_all = 1);
 
-// Appends candidate i of `from` with its vertices and tets renumbered. Tets whose new number is negative are left out.
+// Appends candidate i of `from` with its vertices and tets renumbered. Tets whose new number is no_index are left out.
 template <class Point, class InteriorTet, class BoundaryTet>
 void append_candidate(Candidates& to, const Candidates& from, std::size_t i, Point&& point, InteriorTet&& interior_tet,
                       BoundaryTet&& boundary_tet) {
   std::array<Vertex, 8>& row = to.vertices.emplace_back(from.vertices[i]);
   for (Vertex& v : row)
-    if (v >= 0) v = point(v);
+    if (v != no_index) v = point(v);
   to.kind.push_back(from.kind[i]);
   to.quality.push_back(from.quality[i]);
   to.volume.push_back(from.volume[i]);
   for (const TetIndex t : from.interior_tets_of(i))
-    if (const TetIndex number = interior_tet(t); number >= 0) to.tets.push_back(number);
+    if (const TetIndex number = interior_tet(t); number != no_index) to.tets.push_back(number);
   to.tet_offsets.push_back(static_cast<std::int64_t>(to.tets.size()));
   for (const TetIndex t : from.boundary_tets_of(i))
-    if (const TetIndex number = boundary_tet(t); number >= 0) to.boundary_tets.push_back(number);
+    if (const TetIndex number = boundary_tet(t); number != no_index) to.boundary_tets.push_back(number);
   to.boundary_tet_offsets.push_back(static_cast<std::int64_t>(to.boundary_tets.size()));
 }
 

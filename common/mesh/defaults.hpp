@@ -1,6 +1,5 @@
 #pragma once
-// What holds for a model unless the user says otherwise: which edges of its surface are sharp, and how far apart points
-// are.
+// Defaults that depend on the model: which edges of its surface are sharp, and how far apart points are.
 
 #include <algorithm>
 #include <cmath>

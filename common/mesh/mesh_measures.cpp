@@ -20,7 +20,7 @@ void for_each_cell(const MixedMesh& mesh, Visit&& visit) {
   for (const auto& cell : mesh.tets.cells) visit(CellKind::tet, std::span<const Vertex>(cell));
 }
 
-// One side of a face. The keys and corners of triangles end in -1, which no vertex is.
+// One side of a face. The keys and corners of triangles end in no_index.
 struct Side {
   VertexKey<4> key;
   Quad corners;
@@ -77,7 +77,7 @@ class Faces {
     std::uint8_t number = 0;
     const auto add = [&](const auto& faces) {
       for (const auto& face : faces) {
-        Quad own{-1, -1, -1, -1};
+        Quad own{no_index, no_index, no_index, no_index};
         for (std::size_t i = 0; i < face.size(); ++i) own[i] = corners[face[i]];
         sides_.push_back({key_of(own), own, static_cast<std::int32_t>(centres_.size()), number++});
       }
@@ -91,7 +91,7 @@ class Faces {
   }
 
   MeasuredFace measured(const Side& behind, const Side* before) const {
-    const std::size_t count = behind.corners[3] < 0 ? 3 : 4;
+    const std::size_t count = behind.corners[3] == no_index ? 3 : 4;
     const auto points = corner_points(mesh_.points, std::span(behind.corners).first(count));
     const auto corners = std::span<const Vec3>(points).first(count);
     const FaceShape shape = face_shape(corners);

@@ -38,6 +38,8 @@ inline std::array<Vec3, 8> corner_points(std::span<const Vec3> points, std::span
 // A hex should have this scaled Jacobian at every corner: findhex finds no poorer hexes unless it is told to, assemble
 // lets none in and presses none below it, and tetmesh counts hexes above it.
 inline constexpr double least_hex_quality = 0.3;
+// Cells of other kinds are good enough from here on: nothing that assemble or fitcad does presses them below it.
+inline constexpr double good_enough = 0.12;
 
 // The least scaled Jacobian over the corners; for a pyramid, over the four of its base.
 double least_corner_scaled_jacobian(CellKind kind, std::span<const Vec3> corners);

@@ -58,7 +58,7 @@ constexpr NodePlaces node_places_of(std::uint8_t vtk) {
 struct SecondOrder {
   bool full = false;  // nodes of quads and hexes, too
   Vertex first = 0;   // the points from here on are such nodes, those before are corners
-  // Of each element, one after the other, in the order of node_places_of().
+  // The nodes of each element, one after the other, in the order of node_places_of().
   std::vector<Vertex> hexes, prisms, pyramids, tets, triangles, quads;
 
   const std::vector<Vertex>& of_kind(std::uint8_t vtk) const {
@@ -80,7 +80,7 @@ struct SecondOrder {
   std::vector<Vertex>& of_kind(std::uint8_t vtk) {
     return const_cast<std::vector<Vertex>&>(static_cast<const SecondOrder&>(*this).of_kind(vtk));
   }
-  // Of element i of a kind.
+  // The nodes of element i of a kind.
   std::span<const Vertex> of(std::uint8_t vtk, std::size_t i) const {
     const std::size_t count = node_places_of(vtk).count(full);
     return std::span(of_kind(vtk)).subspan(i * count, count);

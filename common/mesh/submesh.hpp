@@ -1,8 +1,7 @@
 #pragma once
-// Some tets of a mesh as a mesh of its own, where everything keeps its order; and lists in a new order.
+// Some tets of a mesh as a mesh of its own, where everything keeps its order.
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
@@ -22,14 +21,5 @@ Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vect
 
 // The tets that have a point at most `edges` edges away from a marked one, and the triangles between their points.
 Submesh submesh_around(const TetMesh& mesh, const std::vector<bool>& marked, int edges);
-
-// Moves item order[i] to place i, for all i.
-template <class T, class Index>
-void reorder(std::vector<T>& items, const std::vector<Index>& order) {
-  std::vector<T> reordered;
-  reordered.reserve(items.size());
-  for (const Index i : order) reordered.push_back(std::move(items[i]));
-  items = std::move(reordered);
-}
 
 }  // namespace hexpipe

@@ -1,8 +1,6 @@
 #pragma once
-// Text for people, on standard error; and what libraries print on standard output.
+// Text for people, on standard error.
 
-#include <iostream>
-#include <streambuf>
 #include <string>
 #include <string_view>
 
@@ -27,18 +25,5 @@ void clear_terminal_line();
 
 // While this is on, nothing is printed. When several processes do the same work, only one prints.
 void silence_messages(bool on);
-
-// For libraries that print to standard output, where the bundle goes. While it lives, what goes to std::cout goes
-// nowhere. Bundles are written past std::cout.
-class MutedCout {
- public:
-  MutedCout() : buffer_(std::cout.rdbuf(nullptr)) {}
-  ~MutedCout() { std::cout.rdbuf(buffer_); }
-  MutedCout(const MutedCout&) = delete;
-  MutedCout& operator=(const MutedCout&) = delete;
-
- private:
-  std::streambuf* buffer_;
-};
 
 }  // namespace hexpipe

@@ -27,8 +27,8 @@ class ProgressLine {
 // threads, which run beside it, are ignored.
 class Step {
  public:
-  // `what`: a word or two, "looking for hexes"; nothing: the name of the step around it stays. `begin` and `end`: which
-  // part of the step around it this is, or of all work, as shares of the time that it usually takes.
+  // `what`: a word or two, "looking for hexes"; nothing: the name of the step around it stays. `begin` and `end`: where
+  // in the step around it this is, or in all work, as shares of the time that this usually takes.
   explicit Step(const char* what, double begin = 0, double end = 1);
   ~Step();
   Step(const Step&) = delete;

@@ -23,7 +23,7 @@ class Random {
   explicit Random(std::uint64_t seed) {
     for (auto& word : state_) word = splitmix(seed);
   }
-  // An independent stream for part `index` of a computation; parts can run in any order.
+  // An independent stream for each `index` of a computation whose steps can run in any order.
   Random(std::uint64_t seed, std::uint64_t index) : Random(seed ^ (0x9e3779b97f4a7c15u * (index + 1))) {}
 
   std::uint64_t next() {

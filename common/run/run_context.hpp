@@ -1,5 +1,5 @@
 #pragma once
-// What a tool says about itself, and what its run function gets.
+// The description of a tool, and the arguments of its run function.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -40,7 +40,7 @@ struct CommonOptions {
   bool quiet = false;
 };
 
-// What a tool's run function gets.
+// The argument of a tool's run function.
 struct RunContext {
   ToolInfo info;
   CommonOptions common;

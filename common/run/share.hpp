@@ -1,13 +1,8 @@
 #pragma once
 // A share of a tool's work, which a cluster's scheduler or make -j can distribute.
 
-#include <fmt/format.h>
-
-#include <charconv>
 #include <cstdint>
 #include <string>
-
-#include "common/run/error.hpp"
 
 namespace hexpipe {
 
@@ -27,18 +22,6 @@ struct Share {
 };
 
 // Parses "i/k" with 1 <= i <= k < 10^6. Throws UsageError.
-inline Share parse_share(const std::string& text) {
-  constexpr std::int64_t too_many = 1000000;
-  Share share;
-  const char* const end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, share.number);
-  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
-    const auto count = std::from_chars(number.ptr + 1, end, share.count);
-    if (count.ec == std::errc() && count.ptr == end && 1 <= share.number && share.number <= share.count &&
-        share.count < too_many)
-      return share;
-  }
-  throw UsageError(fmt::format("--part: expected i/k with 1 <= i <= k, found '{}'", text));
-}
+Share parse_share(const std::string& text);
 
 }  // namespace hexpipe

@@ -356,7 +356,7 @@ class AbaqusReader {
   void drop_midnodes() {
     std::vector<bool> dropped(points_.size(), false);
     for (const std::int64_t node : midnodes_)
-      if (node >= 0) dropped[static_cast<std::size_t>(node)] = true;
+      if (node != no_index) dropped[static_cast<std::size_t>(node)] = true;
     for (const Element& element : elements_)
       for (std::size_t i = 0; i < static_cast<std::size_t>(corners_of_kind(element.vtk)); ++i)
         dropped[static_cast<std::size_t>(element.corners[i])] = false;

@@ -36,7 +36,7 @@ std::string changed(std::string name, const NameRules& rules) {
   return name;
 }
 
-// What readers compare.
+// A name as readers compare it.
 std::string compared(std::string name, const NameRules& rules) {
   if (rules.folds_case)
     for (char& c : name)

@@ -102,12 +102,12 @@ GroupedMesh grouped(const MixedMesh& mesh, const MeshWriting& writing, const Gro
     for (std::size_t i = 0; i < block.size(); ++i) {
       ElementGroup& group = groups.add(block.cells[i], block.tags[i], place++);
       add_nodes(group, names.vtk, i);
-      const bool has_cell = owner[i].cell >= 0;
+      const bool has_cell = owner[i].cell != no_index;
       if (!has_cell && rules.needs_sides)
         throw DataError::at(output, "cannot write {}s[{}]: {} surfaces consist of facets of cells, and it is none",
                             names.one, i, rules.names.format);
       group.sides.push_back(
-          {has_cell ? first_of_kind[owner[i].kind] + owner[i].cell : -1, owner[i].kind, owner[i].facet});
+          {has_cell ? first_of_kind[owner[i].kind] + owner[i].cell : no_index, owner[i].kind, owner[i].facet});
     }
     groups.take(result.facets);
   };

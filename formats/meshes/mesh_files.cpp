@@ -98,7 +98,7 @@ MixedMesh read_mixed_mesh(Input& input, GroupNames* names, std::vector<std::stri
 
 namespace {
 
-// What is written in place of a mesh, and how.
+// A mesh as its format can hold it, and how to write it.
 struct Prepared {
   MixedMesh mesh;
   MeshWriting writing;

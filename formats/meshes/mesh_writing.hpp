@@ -52,7 +52,7 @@ struct MeshWriting {
 // other side is two triangles now: vertices fit, but the mesh no longer conforms there, and finite elements do not pass
 // the patch test.
 //
-// Of second order, a pyramid becomes four tets around the line from the middle of its base to the apex. They add five
+// A pyramid of second order becomes four tets around the line from the middle of its base to the apex. They add five
 // nodes to the base: its middle, which is a corner of theirs, and those between the middle and its corners. Where
 // something else has the quad on its other side, these go into `tied`: fields of second degree are continuous then, and
 // constant stresses are found exactly where bases are parallelograms.

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "common/mesh/submesh.hpp"
+#include "common/mesh/reorder.hpp"
 
 namespace hexpipe::formats {
 namespace {

@@ -139,7 +139,7 @@ class PolyMesh {
     const auto is_open = [&](const Triangle& triangle) {
       const Corners key = sorted(face_corners(triangle));
       const auto found = std::ranges::lower_bound(faces_, key, {}, &Face::key);
-      return found != faces_.end() && found->key == key && found->neighbour < 0;
+      return found != faces_.end() && found->key == key && found->neighbour == no_index;
     };
     for (const Face& face : faces_) {
       if (face.neighbour != no_index || corner_count_of(face.corners) != 4) continue;

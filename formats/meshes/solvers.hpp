@@ -1,5 +1,5 @@
 #pragma once
-// What solvers accept, for --solver.
+// The elements that solvers accept, for --solver.
 
 #include <string>
 #include <string_view>

@@ -13,8 +13,8 @@ namespace hexpipe::pipeline {
 // The number of quads in a graph, 0 for a plain one.
 std::int32_t quad_count(const StageData& data);
 
-// What the vertices of quads weigh together. The weight of a solution that has every quad without a chosen candidate,
-// less this, is that of its candidates, less the prices of open quads. The graph may be read without its edges.
+// The weight of all vertices of quads. The weight of a solution that has every quad without a chosen candidate, less
+// this, is that of its candidates, less the prices of open quads. The graph may be read without its edges.
 std::int64_t weight_of_quads(const StageData& data);
 
 // Tells --stats and -v how many candidates a solution has, and its value: weights less the prices of open quads. Says

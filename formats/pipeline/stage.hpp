@@ -14,17 +14,17 @@
 
 namespace hexpipe::pipeline {
 
-// What a stage wants from its input.
+// The data that a stage asks for.
 struct StageRequest {
   std::vector<Role> needs{};  // an error when one is missing
   std::vector<Role> wants{};  // taken where they are there
   bool cover = false;         // the graph's clique cover, too, where there is one
   bool shape = false;         // the CAD's faces and curves, too, where a bundle has them
   bool surface = false;       // the triangles that the mesh was made of, too, where a bundle has them
-  bool surface_members =
-      false;                  // all members of the surface, too, as they are, for a tool that makes bundles of its own
   bool dislocations = false;  // of the mesh, too, where a bundle has them
   bool part = false;          // what a part of a mesh has beside mesh and candidates, too, where it is one
+  // All members of the surface, too, as they are, for a tool that makes bundles of its own.
+  bool surface_members = false;
   // A bundle's graph gives its weights only, as a graph without edges: the edges may be most of what there is to hold.
   // A graph in a file of its own has them.
   bool weights_only = false;

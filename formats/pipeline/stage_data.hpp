@@ -42,7 +42,7 @@ struct RawMember {
   std::string name, bytes;
 };
 
-// What a stage has read. A role that the stage did not ask for, or that is not there, stays empty.
+// The data that a stage has read. A role that the stage did not ask for, or that is not there, stays empty.
 struct StageData {
   std::optional<TetMesh> mesh;
   std::optional<Candidates> candidates;

@@ -19,7 +19,7 @@ formats::SurfaceSoup read_surface_bundle(formats::Input& input, const std::funct
 
 // Takes the current member when it is one of the surface's, and also writes it to `copy` unless that is null.
 bool read_surface_member(BundleReader& reader, formats::SurfaceSoup& surface, BundleWriter* copy);
-// What is taken so, checked and completed as by read_surface_bundle.
+// A surface taken in this way, checked and completed as by read_surface_bundle.
 formats::SurfaceSoup checked_surface(formats::SurfaceSoup surface);
 
 // Writes all members that have content, except the names.

@@ -1,5 +1,5 @@
 #pragma once
-// What an Input unpacks on the way: gzip, and UTF-16 to UTF-8. Both are told by the first bytes.
+// Unpacks gzip on the way to an Input, and makes UTF-8 of UTF-16. The first bytes tell both.
 
 #include <cstddef>
 #include <functional>

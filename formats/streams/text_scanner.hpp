@@ -71,7 +71,7 @@ class TextScanner {
 };
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
-// Of ASCII letters.
+// The text in capitals; only ASCII letters change.
 std::string capitals(std::string_view text);
 // Without blanks, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);

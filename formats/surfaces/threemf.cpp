@@ -300,7 +300,7 @@ class ThreemfReader {
       std::string_view extension = model.node.attribute(fmt::format("xmlns:{}", prefix).c_str()).value();
       if (extension.empty()) extension = prefix;
       if (std::ranges::count(known_extensions, extension) > 0) continue;
-      // What all of them begin with would leave no place for the name.
+      // All of them begin with this, which would leave no place for the name.
       constexpr std::string_view usual_start = "/3dmanufacturing/";
       if (const std::size_t at = extension.find(usual_start); at != extension.npos)
         extension.remove_prefix(at + usual_start.size());

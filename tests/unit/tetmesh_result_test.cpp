@@ -16,7 +16,6 @@ using namespace formats;
 using namespace tetmesh;
 using namespace tetmesh::sizing;
 using namespace tetmesh::solid;
-using tetmesh::volume::PointKind;
 namespace {
 
 using testing::box;

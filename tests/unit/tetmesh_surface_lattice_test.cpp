@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tetmesh_surfaces.hpp"
-#include "tools/tetmesh/fields/curl_correction.hpp"
+#include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 #include "tools/tetmesh/surface/feature_paths.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// What --require asks of a result before it is written.
+// Limits that --require sets; a result that misses one is not written.
 
 #include <string>
 #include <string_view>

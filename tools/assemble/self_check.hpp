@@ -37,7 +37,7 @@ CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input,
 using RegionVolumes = std::map<std::int32_t, double>;  // by region
 RegionVolumes region_volumes(const MixedMesh& mesh);
 
-// What a mesh was before it got layers.
+// Volumes of a mesh before it got layers, to compare with those after.
 struct BeforeLayers {
   RegionVolumes volumes;
   double deviation;  // the greatest distance of the boundary from the input's surface

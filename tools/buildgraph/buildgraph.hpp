@@ -16,7 +16,7 @@ struct BuildgraphResult {
   std::optional<std::int64_t> dominated{};  // how many candidates BuildgraphOptions::reduce left out
 };
 
-// What errors call the input.
+// The names of the input in messages.
 struct InputNames {
   std::string candidates = "candidates", mesh = "mesh";
 };

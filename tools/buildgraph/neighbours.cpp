@@ -22,7 +22,7 @@ class HaloCollector {
         order_(all_.keys.key.size()) {
     for (const auto& row : all_.candidates.vertices)
       for (const Vertex v : row)
-        if (v >= 0) corners_[v] = true;
+        if (v != no_index) corners_[v] = true;
     for (const std::int32_t tet : all_.candidates.tets) tets_[tet] = true;
     std::iota(order_.begin(), order_.end(), 0);
   }

@@ -33,7 +33,7 @@ candidates::FindhexResult findhex_of_part(const TetMesh& mesh, const MeshPart& p
   candidates::FindhexResult result = candidates::findhex(std::move(searched.mesh), options, source, scope);
   for (auto& corners : result.candidates.vertices)
     for (Vertex& v : corners)
-      if (v >= 0) v = searched.points[v];
+      if (v != no_index) v = searched.points[v];
   renumber(result.candidates.tets, searched.tets);
   renumber(result.candidates.boundary_tets, searched.tets);
   return result;

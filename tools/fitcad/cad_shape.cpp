@@ -26,7 +26,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
-#include "common/run/messages.hpp"
+#include "common/run/muted_cout.hpp"
 #include "tools/fitcad/nearest_simplex.hpp"
 #include "tools/fitcad/newton.hpp"
 

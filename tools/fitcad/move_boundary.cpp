@@ -14,13 +14,12 @@
 namespace hexpipe::fitcad {
 namespace {
 
-constexpr double good_enough = 0.12;  // for cells other than hexes, as in assemble
-constexpr double most_loss = 0.1;     // of the quality of cells that are poorer
-constexpr double poor = 0.02;         // no cell becomes poorer than that, where vertices would be held otherwise
-constexpr int rounds_of_room = 6;     // before the boundary gives way
-constexpr int rounds_inside = 3;      // of these, before vertices of the boundary slide, too
-constexpr double most_slide = 0.15;   // in lengths of the edges there: longer edges leave a curved face further behind
-constexpr int most_tries = 4;         // of steps of one length
+constexpr double most_loss = 0.1;    // of the quality of cells that are poorer
+constexpr double poor = 0.02;        // no cell becomes poorer than that, where vertices would be held otherwise
+constexpr int rounds_of_room = 6;    // before the boundary gives way
+constexpr int rounds_inside = 3;     // of these, before vertices of the boundary slide, too
+constexpr double most_slide = 0.15;  // in lengths of the edges there: longer edges leave a curved face further behind
+constexpr int most_tries = 4;        // of steps of one length
 constexpr double smallest_share = 0.2;
 
 struct Cell {

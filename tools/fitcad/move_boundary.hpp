@@ -15,7 +15,7 @@ struct MoveCounts {
   std::int64_t held = 0;    // vertices of the boundary that could not go all the way
 };
 
-// A cell that is better than good enough (hexes least_hex_quality, others 0.12) stays so, and a poorer one loses at
+// A cell that is better than good enough (hexes least_hex_quality, others good_enough) stays so, and a poorer one loses at
 // most a tenth of its quality. Where that holds vertices back, cells other than hexes may lose half of it, down to
 // 0.02. Targets of vertices that slid become those of their new places.
 MoveCounts move_boundary(MixedMesh& mesh, const CadShape& shape, Targets& targets);

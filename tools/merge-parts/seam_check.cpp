@@ -51,7 +51,7 @@ void SeamCheck::add(const MixedMesh& mesh, const MeshPiece& piece, const std::st
       throw DataError::at(source, "expected two pieces at a facet of point {}, found a third", facets[i][0]);
     sides.first = sides.pieces == 1 ? piece.part : sides.first;
     for (const std::int64_t number : facets[i])
-      if (number >= 0) ends.push_back(number);
+      if (number != no_index) ends.push_back(number);
   }
   const auto mark = [&](const auto& block) {
     for (const auto& cell : block.cells)

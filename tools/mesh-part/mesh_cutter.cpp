@@ -9,8 +9,6 @@
 namespace hexpipe::mesh_part {
 namespace {
 
-constexpr std::int32_t untaken = -1;
-
 // Two candidates in conflict share a point, which is at most three edges from the vertices where they begin.
 constexpr int edges_between_conflicts = 6;
 
@@ -54,7 +52,7 @@ MeshCutter::MeshCutter(const TetMesh& mesh, const TetAdjacency& adjacency, const
       own_points_(lists_by_part(partition.point_part, parts)),
       own_tets_(lists_by_part(partition.tet_part, parts)),
       point_taken_(mesh.points.size(), 0),
-      tet_taken_(mesh.tets.size(), untaken) {
+      tet_taken_(mesh.tets.size(), no_index) {
   file_triangles();
 }
 

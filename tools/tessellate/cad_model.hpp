@@ -52,7 +52,7 @@ struct CadModel {
   std::vector<std::string> warnings;  // what was healed or left out
 };
 
-// What OpenCASCADE says about a failure, or at least its kind.
+// OpenCASCADE's message about a failure, or at least its kind.
 std::string message_of(const Standard_Failure& failure);
 
 // Throws DataError if the file is empty, cut off, not CAD, or without bodies. Closed shells and faces that can be sewn

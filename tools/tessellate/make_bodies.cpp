@@ -177,7 +177,7 @@ void heal_bodies(CadModel& model) {
 
 namespace {
 
-// What the general fuse has made of a shape.
+// The shapes that the general fuse has made of a shape.
 TopTools_ListOfShape parts_of(const TopoDS_Shape& shape, BRepAlgoAPI_BuilderAlgo& fuse) {
   TopTools_ListOfShape parts = fuse.Modified(shape);
   if (parts.IsEmpty() && !fuse.IsDeleted(shape)) parts.Append(shape);

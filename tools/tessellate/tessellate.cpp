@@ -7,7 +7,7 @@
 #include <Standard_Failure.hxx>
 
 #include "common/run/error.hpp"
-#include "common/run/messages.hpp"
+#include "common/run/muted_cout.hpp"
 #include "common/run/progress.hpp"
 #include "tools/tessellate/cad_model.hpp"
 #include "tools/tessellate/crash_message.hpp"

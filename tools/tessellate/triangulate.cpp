@@ -293,10 +293,10 @@ void Triangulator::add_curves() {
 // walls inside.
 void Triangulator::number_points() {
   formats::SurfaceSoup& surface = result_.surface;
-  std::vector<Vertex> number(nodes_.size(), -1);
+  std::vector<Vertex> number(nodes_.size(), no_index);
   const auto number_of = [&](std::int32_t node) {
     Vertex& known = number[same_.of(node)];
-    if (known < 0) {
+    if (known == no_index) {
       known = static_cast<Vertex>(surface.points.size());
       surface.points.push_back(nodes_[same_.of(node)]);
     }
@@ -331,7 +331,7 @@ void Triangulator::drop_curves_without_triangles(const std::vector<Vertex>& numb
   std::size_t kept = 0;
   for (std::size_t i = 0; i < surface.curves.size(); ++i) {
     const formats::CurveEdge ends{number[surface.curves[i][0]], number[surface.curves[i][1]]};
-    if (ends[0] < 0 || ends[1] < 0 || !edges.contains(key_of(ends))) continue;
+    if (ends[0] == no_index || ends[1] == no_index || !edges.contains(key_of(ends))) continue;
     surface.curves[kept] = ends;
     surface.curve_tags[kept++] = surface.curve_tags[i];
   }

@@ -23,7 +23,6 @@ using namespace hexpipe::tetmesh;
 namespace {
 
 const std::map<std::string, SurfaceKind> surface_kinds{{"remesh", SurfaceKind::remesh}, {"keep", SurfaceKind::keep}};
-using volume::PointKind;
 const std::map<std::string, PointKind> point_kinds{
     {"best", PointKind::best}, {"frame", PointKind::frame}, {"lattice", PointKind::lattice}, {"none", PointKind::none}};
 const std::map<std::string, solid::ShellRule> shell_rules{{"oriented", solid::ShellRule::oriented},

@@ -19,14 +19,11 @@
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
 #include "tools/tetmesh/volume/estimates.hpp"
 #include "tools/tetmesh/volume/frame_points.hpp"
+#include "tools/tetmesh/volume/given_points.hpp"
 #include "tools/tetmesh/volume/lattice.hpp"
-#include "tools/tetmesh/volume/point_kinds.hpp"
 
 namespace hexpipe::tetmesh {
 namespace {
-
-using volume::places_points;
-using volume::PointKind;
 
 // Points that the user gives may come as near to the surface as TetGen can bear.
 constexpr double clearance_of_given = 1e-3;  // in sizes

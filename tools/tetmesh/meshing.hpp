@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/points/point_files.hpp"
+#include "tools/tetmesh/point_kind.hpp"
 #include "tools/tetmesh/sizing/size_demand.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/statistics.hpp"
@@ -19,7 +20,7 @@ namespace hexpipe::tetmesh {
 struct MeshingOptions {
   bool remesh = true;  // false: the surface's triangles stay
   double feature_angle, deviation, row_stretch;
-  volume::PointKind points;
+  PointKind points;
   const formats::PointList& given_points;  // for PointKind::given
   double clearance;                        // in sizes
   std::optional<double> jitter;            // in sizes; nothing: the default of the kind of points

@@ -39,7 +39,7 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
     for (const char* name : idle)
       if (is_given(name)) throw UsageError(fmt::format("{} does nothing {}", name, when));
   };
-  const bool keeps = options.surface == SurfaceKind::keep, places = volume::places_points(options.points);
+  const bool keeps = options.surface == SurfaceKind::keep, places = places_points(options.points);
   if (!options.repair) refuse({"--weld", "--largest-hole"}, "without --repair");
   if (!is_given("--size-field") && !is_given("--layers") && options.asked_sizes.empty() && !options.sizes.curvature)
     refuse({"--grading"}, "without --size-field, --layers, --curvature or a --size at a place");
@@ -49,18 +49,18 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
   if (!places) refuse({"--clearance", "--jitter", "--improve"}, "with --points " + points);
   if (keeps && !places) refuse({"--feature-angle"}, "with --surface keep and --points " + points);
   // With points of the user's own, these options say how near to the surface the points may be.
-  if (keeps && options.points == volume::PointKind::none)
+  if (keeps && options.points == PointKind::none)
     refuse({"--size-field", "--layers", "--curvature"}, "with --surface keep and --points none");
 }
 
 void check_options(const TetmeshOptions& options) {
-  if (options.tries > 1 && options.surface == SurfaceKind::keep && !volume::places_points(options.points))
+  if (options.tries > 1 && options.surface == SurfaceKind::keep && !places_points(options.points))
     throw UsageError("--tries has no sizes to try with --surface keep and without points to place");
   if (const auto given = static_cast<double>(options.given_points.points.size()); given > options.most_points)
     throw DataError::at(options.given_points.name, "expected at most {:g} points (see --most-points), found {:g}",
                         options.most_points, given);
   // Each coordinate moves by the jitter, a point by up to sqrt(3) times that; it must not reach the surface.
-  if (!volume::places_points(options.points)) return;
+  if (!places_points(options.points)) return;
   const double jitter = options.jitter.value_or(volume::FramePointsOptions{}.jitter);
   if (jitter >= options.clearance / 2)
     throw UsageError(

@@ -9,13 +9,13 @@
 
 #include "formats/points/point_files.hpp"
 #include "tools/tetmesh/asked_sizes.hpp"
+#include "tools/tetmesh/point_kind.hpp"
 #include "tools/tetmesh/sizing/size_demand.hpp"
 #include "tools/tetmesh/solid/group_tags.hpp"
 #include "tools/tetmesh/solid/repair.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/volume/lattice.hpp"
-#include "tools/tetmesh/volume/point_kinds.hpp"
 
 namespace hexpipe::tetmesh {
 
@@ -31,7 +31,7 @@ struct TetmeshOptions {
   double feature_angle = default_feature_angle;
   double deviation = surface::RemeshOptions{}.deviation;      // in sizes, or in the thickness of thinner walls
   double row_stretch = surface::RemeshOptions{}.row_stretch;  // in sizes
-  volume::PointKind points = volume::PointKind::best;
+  PointKind points = PointKind::best;
   formats::PointList given_points = {};  // for PointKind::given
   double clearance = volume::LatticeOptions{}.clearance;
   std::optional<double> jitter = {};  // nothing: the default of the kind of points

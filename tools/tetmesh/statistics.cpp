@@ -25,7 +25,7 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
                               {"extra_points", s.extra_points},
                               {"shells", s.shells},
                               {"regions", s.regions},
-                              {"points_kept", volume::name_of(s.points_kept)},
+                              {"points_kept", name_of(s.points_kept)},
                               {"interior_points", s.interior_points},
                               {"added_points", s.added_points},
                               {"dropped_points", s.dropped_points},

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "tools/tetmesh/point_kind.hpp"
 #include "tools/tetmesh/search/point_search.hpp"
 #include "tools/tetmesh/solid/repair.hpp"
-#include "tools/tetmesh/volume/point_kinds.hpp"
 
 namespace hexpipe::tetmesh {
 
@@ -45,7 +45,7 @@ struct TetmeshStatistics {
   std::size_t interior_points = 0;  // asked for
   std::optional<solid::RepairReport> repair;
   std::optional<std::size_t> united_bodies;
-  volume::PointKind points_kept = volume::PointKind::none;
+  PointKind points_kept = PointKind::none;
   // Shares of the volume in hexes, by a rough greedy choice; where several kinds of points were tried.
   std::optional<double> lattice_hex_share, frame_hex_share, mixed_hex_share;
   std::optional<std::int64_t> row_ends;            // on faces, of a surface made anew

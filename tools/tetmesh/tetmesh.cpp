@@ -147,7 +147,7 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   if (auto complaint = complaint_about_size(surface, demand.greatest)) warnings.push_back(*std::move(complaint));
   add_asked_sizes(surface, options.asked_sizes, options.tetgen_timeout, demand);
   const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
-  const bool places = volume::places_points(options.points);
+  const bool places = places_points(options.points);
   // Before any memory is used for points, and before walls are measured.
   if (places) volume::check_point_count(surface, least_factor * demand.greatest, options.most_points);
   const sizing::SizeField size = sizing::field_of(surface, demand);

@@ -11,7 +11,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 const double up_tangent = std::tan(14 * degree);  // of half the angle of view
 constexpr double greatest_zoom = 200;
-// Of the way to the target; what is nearer is not drawn. Less would leave depths too coarse for occlusion.
+// A share of the way to the target; nothing nearer is drawn. Less would leave depths too coarse for occlusion.
 constexpr double nearest = 0.1;
 
 // The scene's ball, of radius 1, fits the narrower way at zoom 1: the corners of a box lie on it.

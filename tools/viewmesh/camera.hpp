@@ -21,7 +21,7 @@ struct Camera {
 
 Camera camera_of(const ViewState& state, double aspect);
 
-// A part of the picture, of which all is [-1, 1] across and up.
+// A box in the picture, of which all is [-1, 1] across and up.
 struct Frame {
   double left = -1, right = 1, bottom = -1, top = 1;
 };

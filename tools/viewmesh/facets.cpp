@@ -29,7 +29,7 @@ FacetCorners facet_corners(const Scene& scene, std::int32_t cell, int facet) {
   return with_topology(scene.kind_of(cell), [&](auto topology) {
     using Topology = decltype(topology);
     constexpr int triangles = static_cast<int>(Topology::triangles.size());
-    FacetCorners result{{-1, -1, -1, -1}, facet < triangles ? 3 : 4};
+    FacetCorners result{{no_index, no_index, no_index, no_index}, facet < triangles ? 3 : 4};
     for (int i = 0; i < result.count; ++i) {
       if constexpr (Topology::triangles.size() > 0)
         if (facet < triangles) result.vertices[i] = corners[Topology::triangles[facet][i]];
@@ -60,7 +60,7 @@ std::vector<bool> surface_points(const Scene& scene) {
     const auto beside_first = [&](const FacetSide& other) { return other.side == sides[0].side; };
     if (!std::all_of(sides.begin(), sides.end(), beside_first)) return;
     for (const std::int32_t vertex : sides[0].key)
-      if (vertex >= 0) result[vertex] = true;
+      if (vertex != no_index) result[vertex] = true;
   });
   return result;
 }

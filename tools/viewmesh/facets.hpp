@@ -11,7 +11,7 @@ namespace hexpipe::viewmesh {
 
 // A cell's view of one of its facets. Cells that list the same vertices in opposite senses are on different sides.
 struct FacetSide {
-  std::array<std::int32_t, 4> key;  // vertices ascending; the first is -1 in a triangle
+  std::array<std::int32_t, 4> key;  // vertices ascending; the first is no_index in a triangle
   std::int32_t cell;
   std::uint8_t facet;  // triangles of the topology first, then its quads
   std::uint8_t side;

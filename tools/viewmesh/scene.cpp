@@ -139,9 +139,9 @@ void collect(const TetMesh& mesh, CellCollector& cells) {
 }
 
 // Throws DataError when roles are missing that the content needs; the result needs no other role.
-void expect_parts(const pipeline::StageData& data, Scene::Content content, const std::string& source) {
-  const auto expect = [&](bool there, const char* part) {
-    if (!there) throw DataError::at(source, "expected {} to show the {}, found none", part, name_of(content));
+void expect_shown(const pipeline::StageData& data, Scene::Content content, const std::string& source) {
+  const auto expect = [&](bool there, const char* member) {
+    if (!there) throw DataError::at(source, "expected {} to show the {}, found none", member, name_of(content));
   };
   expect(data.mesh.has_value(), "the tet mesh");
   if (content == Scene::Content::mesh) return;
@@ -241,7 +241,7 @@ Scene scene_of_cells(pipeline::StageData& data, Scene::Content content, const st
     find_groups(data.names, surface_of(*data.result), scene);
     return scene;
   }
-  expect_parts(data, content, source);
+  expect_shown(data, content, source);
   if (data.candidates) scene.candidate_count = static_cast<std::int32_t>(data.candidates->size());
   if (content == Scene::Content::solution) collect(*data.solution, *data.candidates, *data.mesh, source, cells);
   if (content == Scene::Content::candidates)

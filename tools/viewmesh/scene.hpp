@@ -42,8 +42,8 @@ struct Scene {
   std::vector<std::int32_t> region;  // of candidates: that of their first tet
   std::vector<std::uint8_t> layer;   // 1: touches the surface; 2: touches those; ...
   std::vector<std::int32_t> number;  // in its block of the file, or as a candidate, from 0
-  // Of meshes, whose cells have neighbours: the worst of each cell's faces, as measure_names, in hundredths of a degree
-  // and in ten-thousandths. They are rounded towards the worse, so that no limit of whole such units is met by
+  // For meshes, whose cells have neighbours: the worst of each cell's faces, as measure_names, in hundredths of a
+  // degree and in ten-thousandths. They are rounded towards the worse, so that no limit of whole such units is met by
   // rounding.
   std::array<std::vector<std::int32_t>, measure_names.size()> measures;
   std::int32_t candidate_count = 0;  // all candidates, shown or not

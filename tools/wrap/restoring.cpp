@@ -184,11 +184,11 @@ class Restorer {
 
   void leave_out_unused_points() {
     auto& [points, triangles] = result_.surface;
-    std::vector<Vertex> number(points.size(), -1);
+    std::vector<Vertex> number(points.size(), no_index);
     std::vector<Vec3> used;
     for (Triangle& t : triangles)
       for (Vertex& v : t) {
-        if (number[v] < 0) number[v] = static_cast<Vertex>(used.size()), used.push_back(points[v]);
+        if (number[v] == no_index) number[v] = static_cast<Vertex>(used.size()), used.push_back(points[v]);
         v = number[v];
       }
     points = std::move(used);
@@ -198,7 +198,7 @@ class Restorer {
     result_ = {};
     Surface& surface = result_.surface;
     for (std::size_t v = 0; v < wrapped_.points.size(); ++v) surface.points.push_back(place_of(static_cast<Vertex>(v)));
-    owner_of_point_.assign(wrapped_.points.size(), -1);
+    owner_of_point_.assign(wrapped_.points.size(), no_index);
     for (std::size_t t = 0; t < wrapped_.triangles.size(); ++t) {
       const auto [a, b, c] = wrapped_.triangles[t];
       if (!sharp_points_[t]) {
@@ -208,8 +208,8 @@ class Restorer {
       const auto s = static_cast<Vertex>(surface.points.size());
       surface.points.push_back(*sharp_points_[t]);
       owner_of_point_.push_back(static_cast<std::int32_t>(t));
-      for (const Triangle& part : {Triangle{a, b, s}, Triangle{b, c, s}, Triangle{c, a, s}})
-        surface.triangles.push_back(part);
+      for (const Triangle& third : {Triangle{a, b, s}, Triangle{b, c, s}, Triangle{c, a, s}})
+        surface.triangles.push_back(third);
       ++result_.sharp_points;
     }
     flip_to_input(false);
@@ -239,7 +239,7 @@ class Restorer {
           const std::int32_t other = found->second;
           Triangle& beyond = triangles[other];
           const Vertex w = opposite(beyond, u, v);
-          if (!everywhere && owner_of_point_[s] < 0 && owner_of_point_[w] < 0) continue;
+          if (!everywhere && owner_of_point_[s] == no_index && owner_of_point_[w] == no_index) continue;
           if (!keeps_edges_.empty() && (keeps_edges_[u] || keeps_edges_[v] || keeps_edges_[s] || keeps_edges_[w]))
             continue;
           if (triangle_of.contains(key(s, w)) || triangle_of.contains(key(w, s)) || !pays(u, v, s, w)) continue;
@@ -271,7 +271,7 @@ class Restorer {
   static Vertex opposite(const Triangle& t, Vertex u, Vertex v) {
     for (const Vertex w : t)
       if (w != u && w != v) return w;
-    return -1;
+    return no_index;
   }
 
   bool pays(Vertex u, Vertex v, Vertex s, Vertex w) const {
@@ -288,7 +288,7 @@ class Restorer {
   void take_back(const Triangle& t) {
     bool sharp = false;
     for (const Vertex v : t)
-      if (const std::int32_t owner = owner_of_point_[v]; owner >= 0) sharp_points_[owner].reset(), sharp = true;
+      if (const std::int32_t owner = owner_of_point_[v]; owner != no_index) sharp_points_[owner].reset(), sharp = true;
     if (sharp) return;
     for (const Vertex v : t) moves_[v] = false;
   }
@@ -302,7 +302,7 @@ class Restorer {
   std::vector<Plane> planes_;  // of the input, at the targets
   RestoredSurface result_;
   std::vector<char> keeps_edges_;             // points whose edges may not flip; empty: none
-  std::vector<std::int32_t> owner_of_point_;  // the triangle of the wrap that a sharp point stands in; -1 for others
+  std::vector<std::int32_t> owner_of_point_;  // for a sharp point, the triangle of the wrap in which it stands
 };
 
 }  // namespace

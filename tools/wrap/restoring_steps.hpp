@@ -1,5 +1,5 @@
 #pragma once
-// What restore_shape() does with a surface after its points went to the input: points that could not go settle, and
+// The steps of restore_shape() after the points of a surface went to the input: points that could not go settle, and
 // triangles that nobody can mesh go.
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace hexpipe::wrap {
 void settle_strays(Surface& surface, std::vector<char>& is_stray, const std::vector<Vec3>& targets,
                    const TriangleTree& input);
 
-// Of slivers, folds and very short edges.
+// Limits for slivers, folds and very short edges.
 struct SliverLimits {
   double shortest_edge;
   double misfit;  // how far the triangles may come from the input, unless they are farther away already

@@ -1,5 +1,5 @@
 #pragma once
-// CGAL's part: a closed surface around any triangles, and the check that a surface does not cross itself.
+// What CGAL does: a closed surface around any triangles, and the check that a surface does not cross itself.
 
 #include <vector>
 

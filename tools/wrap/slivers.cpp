@@ -49,9 +49,9 @@ class SliverRemover {
   // Merges `from` into `to`, or makes the edge from..to out of that between the two points opposite it.
   struct Step {
     Vertex from, to;
-    std::array<std::int32_t, 2> flipped{-1, -1};  // the two triangles of a flip
+    std::array<std::int32_t, 2> flipped{no_index, no_index};  // the two triangles of a flip
     std::array<Triangle, 2> made{};
-    bool flips() const { return flipped[0] >= 0; }
+    bool flips() const { return flipped[0] != no_index; }
   };
 
   bool round() {
@@ -108,11 +108,11 @@ class SliverRemover {
     return {surface_.points[t[0]], surface_.points[t[1]], surface_.points[t[2]]};
   }
 
-  // The other triangle at an edge; -1 where a step beside it changed that.
+  // The other triangle at an edge; no_index where a step beside it changed that.
   std::int32_t beyond(std::int32_t t, Vertex u, Vertex v, const TrianglesAround& around) const {
     for (const std::int32_t other : around[u])
       if (other != t && has(surface_.triangles[other], u) && has(surface_.triangles[other], v)) return other;
-    return -1;
+    return no_index;
   }
 
   bool is_bad(const Triangle& t, const TrianglesAround& around) const {
@@ -180,11 +180,11 @@ class SliverRemover {
   void consider_flipping(std::int32_t t, Vertex u, Vertex v, Vertex w, const TrianglesAround& around,
                          const std::vector<char>& touched, Consider&& consider) const {
     const std::int32_t other = beyond(t, u, v, around);
-    if (other < 0 || is_touched(surface_.triangles[other], touched)) return;
-    Vertex x = -1;
+    if (other == no_index || is_touched(surface_.triangles[other], touched)) return;
+    Vertex x = no_index;
     for (const Vertex y : surface_.triangles[other])
       if (y != u && y != v) x = y;
-    if (x < 0 || x == w || beyond(-1, w, x, around) >= 0) return;
+    if (x == no_index || x == w || beyond(no_index, w, x, around) != no_index) return;
     const std::array<Triangle, 2> made{Triangle{u, x, w}, Triangle{x, v, w}};
     const Triangle &one = surface_.triangles[t], &two = surface_.triangles[other];
     consider(Step{w, x, {t, other}, made}, is_bad(one, around) + is_bad(two, around), {corners(one), corners(two)},

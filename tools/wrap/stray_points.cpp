@@ -36,8 +36,8 @@ class StraySettler {
  private:
   struct Step {
     Vertex stray;
-    Vertex into;  // a neighbour; -1: it goes to its target
-    Vertex at() const { return into < 0 ? stray : into; }
+    Vertex into;  // a neighbour; no_index: it goes to its target
+    Vertex at() const { return into == no_index ? stray : into; }
   };
 
   const std::vector<Step>& settle_apart() {
@@ -60,7 +60,7 @@ class StraySettler {
   }
 
   void take(const Step& step, const std::vector<std::int32_t>& around) {
-    if (step.into < 0)
+    if (step.into == no_index)
       surface_.points[step.stray] = targets_[step.stray];
     else
       for (const std::int32_t t : around)
@@ -68,16 +68,16 @@ class StraySettler {
   }
 
   std::optional<Step> best_step(Vertex v, const std::vector<Vertex>& ring, const TrianglesAround& around) const {
-    const Misfit now = misfit(v, -1, surface_.points[v], around[v]);
+    const Misfit now = misfit(v, no_index, surface_.points[v], around[v]);
     Misfit least = now;
     std::optional<Step> best;
     const auto consider = [&](const Step& step, const Vec3& place) {
       if (!keeps_sides(v, step.into, place, around[v])) return;
       const Misfit found = misfit(v, step.into, place, around[v]);
-      if (found.greatest >= now.greatest && (step.into >= 0 || !lets_sum_decide_)) return;
+      if (found.greatest >= now.greatest && (step.into != no_index || !lets_sum_decide_)) return;
       if (found < least) least = found, best = step;
     };
-    consider({v, -1}, targets_[v]);
+    consider({v, no_index}, targets_[v]);
     for (const Vertex w : ring)
       if (!is_stray_[w] && may_merge(surface_, around, v, w)) consider({v, w}, surface_.points[w]);
     return best;
@@ -90,7 +90,7 @@ class StraySettler {
                         Visit&& visit) const {
     for (const std::int32_t t : around) {
       const Triangle& triangle = surface_.triangles[t];
-      if (into >= 0 && has(triangle, into)) continue;
+      if (into != no_index && has(triangle, into)) continue;
       std::array<Vec3, 3> before{}, after{};
       for (std::size_t i = 0; i < 3; ++i) {
         before[i] = surface_.points[triangle[i]];

@@ -41,7 +41,7 @@ const std::vector<MedKind>& med_kinds() {
   return kinds;
 }
 
-// What no mesh of ours has; lines and points are skipped.
+// Types of elements that no mesh of ours has; lines and points are skipped.
 struct RefusedType {
   med_geometry_type type;
   const char* name;
@@ -316,7 +316,7 @@ class MedReader {
     }
   }
 
-  // Of several groups of a family, the smallest says most.
+  // A family of several groups gets the name of the smallest, which says most.
   void set_groups() {
     for (auto* const list : {&mesh_.cells, &mesh_.facets}) {
       std::map<std::string, std::size_t> sizes;

@@ -60,7 +60,7 @@ void append_sides(const FacesOf& cell, std::size_t number, std::vector<Side>& si
   std::uint8_t face = 0;
   auto each = [&](const auto& facets) {
     for (const auto& facet : facets) {
-      std::array<Vertex, 4> own{-1, -1, -1, -1};
+      std::array<Vertex, 4> own{no_index, no_index, no_index, no_index};
       for (std::size_t i = 0; i < facet.size(); ++i) own[i] = cell.corners[facet[i]];
       const VertexKey<4> key = key_of(own);
       const auto pair = [&](std::size_t i) {

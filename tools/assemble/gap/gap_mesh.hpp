@@ -45,7 +45,7 @@ struct KeptCell {
   }
 };
 
-// What the faces of a cell cost (face_costs.hpp), and the age of the cell when that was found.
+// The cost of a cell's faces (face_costs.hpp), and the age of the cell when it was found.
 struct FaceCost {
   std::uint64_t age = std::numeric_limits<std::uint64_t>::max();
   double cost = 0;

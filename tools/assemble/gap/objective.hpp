@@ -4,14 +4,15 @@
 #include <span>
 
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/quality.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "common/mesh/vec3.hpp"
 
 namespace hexpipe::assemble::gap {
 
-// No cell may become worse than this, or than the worst cell that it replaces. Smoothing takes the same quality for
-// good enough (shape/smooth.hpp). open_hexes() alone goes down to least_wanted.
-inline constexpr double least_quality = 0.12;
+// No cell may become worse than this, or than the worst cell that it replaces. open_hexes() alone goes down to
+// least_wanted.
+inline constexpr double least_quality = good_enough;
 // Where a cell is worse than this, a new vertex is put beside it, or a chosen cell goes (open_hexes() in passes.hpp).
 inline constexpr double least_wanted = 0.1;
 // Changes that gain less are not worth it. Because each change gains this much, the passes end.

@@ -13,7 +13,7 @@ namespace {
 
 // As in smoothing (shape/smooth.cpp): chosen cells are not pressed below that, and a hex counts as another cell of half
 // its quality.
-constexpr double least_hex = least_hex_quality, least_prism = 0.12;
+constexpr double least_hex = least_hex_quality, least_prism = good_enough;
 constexpr double hex_weight = 0.5;
 constexpr int steps_to_make_room = 6;
 // A move after which a cell is not valid is halved this often.

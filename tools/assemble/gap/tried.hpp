@@ -1,5 +1,5 @@
 #pragma once
-// What was tried in vain, so that it is not tried again while nothing there has changed.
+// Remembers places where nothing was found, so that they are tried again only after a change there.
 
 #include <tsl/robin_set.h>
 

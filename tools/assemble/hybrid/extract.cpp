@@ -56,7 +56,7 @@ void drop_unused_points(Extract& extract, const std::vector<Vec3>& points) {
   mark_used(result.hexes, numbers), mark_used(result.prisms, numbers), mark_used(result.pyramids, numbers);
   mark_used(result.tets, numbers);
   for (std::size_t v = 0; v < points.size(); ++v) {
-    if (numbers[v] < 0) continue;
+    if (numbers[v] == no_index) continue;
     numbers[v] = static_cast<Vertex>(result.points.size());
     result.points.push_back(points[v]);
     extract.origin.push_back(static_cast<Vertex>(v));

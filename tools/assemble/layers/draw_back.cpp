@@ -38,7 +38,6 @@ constexpr double relieved_quality = 0.6, poorest_quality = 0.01, poorest_of_side
 constexpr double least_hex = 0.2, least_other = 0.06;
 // Along the wall, the shares of neighbours differ by no more than this.
 constexpr double share_slope = 0.25;
-constexpr double least_other_quality = 0.12;  // as good_enough in smooth.cpp
 // A cell below its limit may lose this share of its quality.
 constexpr double kept_quality = 0.95;
 // Cells over a sliver of the wall are slivers.
@@ -102,7 +101,7 @@ double quality_of(CellKind kind, std::span<const Vec3> corners) {
 }
 
 double least_quality_of(CellKind kind) {
-  return kind == CellKind::hex ? least_hex_quality : least_other_quality;
+  return kind == CellKind::hex ? least_hex_quality : good_enough;
 }
 
 // The least sine of an angle at a corner.

@@ -14,7 +14,7 @@
 
 namespace hexpipe::assemble::layers {
 
-// What moves, and what it may not leave.
+// The walls whose tips move, and what limits them.
 struct DrawBackInput {
   const Walls& walls;
   const LinePlan& plan;
@@ -33,10 +33,10 @@ struct DrawBackResult {
 };
 
 // Moves tips towards their goals, and vertices inside out of their way. All cells stay valid, and so are all cells of
-// layers afterwards. Hexes stay above least_hex_quality and others above 0.12, or lose a twentieth of their quality in
-// each pass. Where lines would come to less than a quarter of their way, these limits fall to 0.6 of what the cell had,
-// but not below 0.2 and 0.06; in the first pass, where lines would come to less than a twentieth, to the lower of 0.01
-// and 0.6 of what the cell had.
+// layers afterwards. Hexes stay above least_hex_quality and others above good_enough, or lose a twentieth of their
+// quality in each pass. Where lines would come to less than a quarter of their way, these limits fall to 0.6 of what the
+// cell had, but not below 0.2 and 0.06; in the first pass, where lines would come to less than a twentieth, to the lower
+// of 0.01 and 0.6 of what the cell had.
 DrawBackResult draw_back(MixedMesh& mesh, const DrawBackInput& input);
 
 }  // namespace hexpipe::assemble::layers

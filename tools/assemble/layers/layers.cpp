@@ -19,7 +19,7 @@ namespace {
 constexpr int most_attempts = 16;
 // Quads that are cut let lines see other normals, so that others may have to be cut.
 constexpr int most_openings = 3;
-// Of the edges of the wall, where no height is given.
+// The height of a line's layers, in edges of the wall, where no height is given.
 constexpr double usual_share_of_edges = 0.5;
 // Cells of layers are no worse than this.
 constexpr double least_layer_quality = 0.02;

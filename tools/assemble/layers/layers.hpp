@@ -16,8 +16,8 @@ namespace hexpipe::assemble::layers {
 
 struct LayerRules {
   std::vector<WallGroup> walls;  // by tag, ascending
-  // Of the first layer at the wall; each further one is higher by the factor `growth`. Nothing: all layers of a line
-  // together are half as high as the edges of the wall at its foot are long.
+  // The height of the first layer at the wall; each further one is higher by the factor `growth`. Nothing: all layers
+  // of a line together are half as high as the edges of the wall at its foot are long.
   std::optional<double> first_height{};
   double growth = 1;
 };
@@ -25,7 +25,7 @@ struct LayerRules {
 // A fraction of the diagonal of the mesh. Layers that are lower are nothing beside the coordinates' rounding.
 inline constexpr double least_height = 1e-9;
 
-// What a user wants to know about layers.
+// Counts of layers, for --stats and messages.
 struct LayerCounts {
   std::int64_t facets = 0;      // of walls, counted from each side that has layers
   double area = 0;              // theirs

@@ -91,7 +91,7 @@ std::string list_of(const Tags& tags, const Names& names) {
                       what, name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near), list_of(all, names));
 }
 
-// What lies beside the facets of each tag.
+// The regions and tags beside the facets of each tag.
 struct Sides {
   std::map<std::int32_t, Tags> regions;  // by tag of the surface
   Tags outer;                            // tags of facets that have a tet on one side only

@@ -112,7 +112,7 @@ class EdgeFinder {
     for (std::size_t f = 0; f < patch_.size(); ++f) patch_[f] = patches.of(static_cast<std::int32_t>(f));
   }
 
-  // What each facet adds to the normals of its corners.
+  // Each facet adds to the normals of its corners, with the weights of
   // N. Max: Weights for computing vertex normals from facet normals (J. Graphics Tools, 1999): exact on spheres.
   void find_normals() {
     for (std::size_t f = 0; f < facets_.size(); ++f) {

@@ -19,7 +19,7 @@ namespace {
 
 // Vertices that slid are up to shape::most_deviation off; this is far enough for them, and not for other walls.
 constexpr double most_way = 0.1;  // in lengths of the shortest edge there: layers at walls are thin
-// What is nearer, in the same lengths, is on the surface.
+// Corners that are nearer, in the same lengths, are on the surface.
 constexpr double on_surface = 1e-9;
 constexpr double kept_quality = 0.9;
 

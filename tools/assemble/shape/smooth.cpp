@@ -41,9 +41,8 @@ constexpr double good_prism = 0.5;
 // Cells between hexes become as thin as good_enough lets them, and hexes are as good as without growth. At 0.5 hexes
 // are 0.02 worse on average, at 0.1 they take half as much from the tets.
 constexpr double worth_of_growth = 0.2;
-// If the worst cell, so weighted, is better than this, the average counts, and growth.
-constexpr double good_enough = 0.12;
-// If the worst cell, so weighted, is worse than this, vertices slide on curved surfaces.
+// If the worst cell, so weighted, is worse than this, vertices slide on curved surfaces. If it is better than
+// good_enough, the average counts, and growth.
 constexpr double slides_below = 0.12;
 // A vertex stays if all its cells are at least this good.
 constexpr double excellent = 0.9;

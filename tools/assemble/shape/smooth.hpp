@@ -48,7 +48,7 @@ void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullp
 using Settled = std::vector<std::uint64_t>;
 
 // Smooths in at most `rounds` rounds over all vertices. No vertex leaves its plane or line (vertex_freedoms). No move
-// takes the worst cell around it below good enough (hexes 0.24, others 0.12), or makes it worse if it is below, or
+// takes the worst cell around it below good enough (hexes twice good_enough), or makes it worse if it is below, or
 // presses a hex below least_hex_quality. Every cell stays valid everywhere. With `sliding`, vertices slide on curved
 // surfaces and curves where the worst cell is poor, within a small fraction of an edge length of the input's surface.
 // `settled`, which needs `sliding`, is read and written.

@@ -37,7 +37,7 @@ class RayWalk {
     return cross(corner(facet, 1) - corner(facet, 0), corner(facet, 2) - corner(facet, 0));
   }
   Exit exit_of(const Facet& entry, const Vec3& from, const Vec3& along) const;
-  bool goes_on(std::int32_t tet, std::int32_t beyond) const {
+  bool goes_on(TetIndex tet, TetIndex beyond) const {
     return beyond != no_index && mesh_.tet_tags[beyond] == mesh_.tet_tags[tet];
   }
 

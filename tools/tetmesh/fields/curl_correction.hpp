@@ -1,6 +1,5 @@
 #pragma once
-// Corrects distances along a field so that they add up around loops; and the number of elements that a distance across
-// a thin strip or wall becomes.
+// Corrects distances along a field so that they add up around loops.
 
 #include <cstdint>
 #include <span>
@@ -53,13 +52,5 @@ struct CurlLimits {
 
 // The smallest correction of the distances (least squares) that closes every loop, as far as the stiffness lets it.
 std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops, const CurlLimits& limits);
-
-// One or two layers, by the width in sizes: whichever number stretches or compresses them less. Up to widest_to_decide
-// both numbers are so near that some places might take one and some the other, if each decided for itself.
-inline constexpr double widest_to_decide = 1.75;
-inline int layers_across(double width) {
-  constexpr double as_far_from_both = 1.41421356237309505;  // the square root of 1 times 2
-  return width > as_far_from_both ? 2 : 1;
-}
 
 }  // namespace hexpipe::tetmesh::fields

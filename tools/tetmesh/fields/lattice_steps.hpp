@@ -43,7 +43,7 @@ class StepFit {
   }
 
  private:
-  // Of the gradients: in lattice cells per square or cube of the size.
+  // The determinant of the gradients: in lattice cells per square or cube of the size.
   static constexpr double least_determinant = 0.2;
 
   Matrix moments_ = Matrix::Zero(), right_ = Matrix::Zero();

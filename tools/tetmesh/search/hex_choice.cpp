@@ -7,7 +7,7 @@
 #include "common/candidates/findhex.hpp"
 #include "common/conflicts/find_conflicts.hpp"
 #include "common/mesh/facet_key.hpp"
-#include "common/mesh/submesh.hpp"
+#include "common/mesh/reorder.hpp"
 #include "common/mwis/local_search/annealing.hpp"
 #include "common/run/random.hpp"
 

@@ -90,7 +90,7 @@ PointChange ChangeDrawer::move_one(Vertex v, double size, Random& random) const 
 
 PointChange ChangeDrawer::join(Vertex v, double size) const {
   const Vertex other = nearest_to(mesh_.points[v], adjacency_.neighbours_of(v), 2 * size);
-  if (other < 0 || !is_inside(other)) return {{v}, {}, {}, {}};
+  if (other == no_index || !is_inside(other)) return {{v}, {}, {}, {}};
   const Vec3 place = 0.5 * (mesh_.points[v] + mesh_.points[other]);
   if (!is_free(place, size)) return {};
   return {{other}, {{v, place}}, {}, {}};

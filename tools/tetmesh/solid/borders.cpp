@@ -106,8 +106,8 @@ class BorderCutter {
     Vertex last = from;
     for (const Cut& cut : cuts) fan.push_back({std::exchange(last, cut.point), cut.point, across});
     fan.push_back({last, to, across});
-    for (const Triangle& piece : fan)
-      if (!(dot(normal_of(soup_, piece), normal) > 0)) return 0;
+    for (const Triangle& cut : fan)
+      if (!(dot(normal_of(soup_, cut), normal) > 0)) return 0;
     soup_.triangles[t] = fan.front();
     for (std::size_t i = 1; i < fan.size(); ++i) {
       soup_.triangles.push_back(fan[i]);
@@ -127,8 +127,8 @@ class BorderCutter {
   std::vector<std::vector<Cut>> cuts_;  // by border
 };
 
-// Pieces of a soup: triangles that hang together by edges.
-struct Piece {
+// A component of a soup: triangles that hang together by edges.
+struct Component {
   std::size_t triangles = 0;
   double area = 0, border = 0;
   bool is_open = false;
@@ -195,7 +195,7 @@ std::size_t weld_borders(SurfaceSoup& soup, double tolerance) {
 }
 
 std::size_t cut_at_border_points(SurfaceSoup& soup, double tolerance) {
-  constexpr int most_rounds = 20;  // a triangle has three borders, and its pieces may have others
+  constexpr int most_rounds = 20;  // a triangle has three borders, and what it is cut into may have others
   std::size_t count = 0;
   BorderCutter cutter(soup, tolerance);
   for (int round = 0; round < most_rounds; ++round) {
@@ -222,25 +222,28 @@ std::size_t remove_stray_sheets(SurfaceSoup& soup) {
       border[geometry::triangle_of(edge[0])] += norm(soup.points[geometry::end_of(soup.triangles, edge[0])] -
                                                      soup.points[geometry::start_of(soup.triangles, edge[0])]);
   });
-  std::map<std::int32_t, Piece> pieces;
+  std::map<std::int32_t, Component> components;
   for (std::size_t t = 0; t < triangles; ++t) {
-    Piece& piece = pieces[sets.of(static_cast<std::int32_t>(t))];
-    ++piece.triangles;
-    piece.area += norm(normal_of(soup, soup.triangles[t])) / 2;
-    piece.border += border[t];
-    piece.is_open = piece.is_open || border[t] > 0;
+    Component& component = components[sets.of(static_cast<std::int32_t>(t))];
+    ++component.triangles;
+    component.area += norm(normal_of(soup, soup.triangles[t])) / 2;
+    component.border += border[t];
+    component.is_open = component.is_open || border[t] > 0;
   }
   constexpr std::size_t fewest_of_body = 4;
-  const auto bounds = [](const Piece& piece) { return !piece.is_open && piece.triangles >= fewest_of_body; };
+  const auto bounds = [](const Component& component) {
+    return !component.is_open && component.triangles >= fewest_of_body;
+  };
   double closed_area = 0;
-  for (const auto& [first, piece] : pieces) closed_area += bounds(piece) ? piece.area : 0;
-  const auto is_stray = [&](const Piece& piece) {
-    if (closed_area == 0 || bounds(piece)) return false;
-    if (!piece.is_open) return true;
-    return is_sheet(piece.area, piece.border) && (piece.triangles <= few || piece.area <= small_share * closed_area);
+  for (const auto& [first, component] : components) closed_area += bounds(component) ? component.area : 0;
+  const auto is_stray = [&](const Component& component) {
+    if (closed_area == 0 || bounds(component)) return false;
+    if (!component.is_open) return true;
+    return is_sheet(component.area, component.border) &&
+           (component.triangles <= few || component.area <= small_share * closed_area);
   };
   std::vector<bool> kept(triangles);
-  for (std::size_t t = 0; t < triangles; ++t) kept[t] = !is_stray(pieces[sets.of(static_cast<std::int32_t>(t))]);
+  for (std::size_t t = 0; t < triangles; ++t) kept[t] = !is_stray(components[sets.of(static_cast<std::int32_t>(t))]);
   keep_only(soup, kept);
   return static_cast<std::size_t>(std::ranges::count(kept, false));
 }

@@ -19,17 +19,17 @@ double rounding_of(const formats::SurfaceSoup& soup);
 // points went. Triangles may collapse.
 std::size_t weld_borders(formats::SurfaceSoup& soup, double tolerance);
 
-// Cuts triangles whose border leads through other points of borders, within the tolerance (T-junctions), so that the
-// pieces end there. Returns the number of such places. No triangle may repeat a vertex.
+// Cuts triangles whose border leads through other points of borders, within the tolerance (T-junctions), so that edges
+// end there. Returns the number of such places. No triangle may repeat a vertex.
 std::size_t cut_at_border_points(formats::SurfaceSoup& soup, double tolerance);
 
-// Whether an open piece may be a sheet, not a body with a hole: a flat piece inside a border of that length would be as
-// large or larger.
+// Whether an open component may be a sheet, not a body with a hole: a flat sheet inside a border of that length would
+// be as large or larger.
 bool is_sheet(double area, double border);
 
-// Removes open pieces that share no edge with others and are sheets. They have at most four triangles, or a hundredth
-// of the area of the closed pieces, of which there must be some. Two triangles back to back are such a piece, too.
-// Returns the number of triangles that went. No triangle may repeat a vertex.
+// Removes open components that share no edge with others and are sheets. They have at most four triangles, or a
+// hundredth of the area of the closed components, of which there must be some. Two triangles back to back are such a
+// component, too. Returns the number of triangles that went. No triangle may repeat a vertex.
 std::size_t remove_stray_sheets(formats::SurfaceSoup& soup);
 
 // Whether an edge has a single triangle.

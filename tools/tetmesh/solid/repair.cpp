@@ -58,7 +58,7 @@ class Repairer {
     if (count() == 0) throw DataError::at(soup_.name, "expected a surface, found only triangles without area");
   }
   std::size_t count() const { return soup_.triangles.size(); }
-  // Of the corners in ascending order: even or odd.
+  // Whether the corners are an even or an odd permutation of their ascending order.
   static int turn_of(const Triangle& t) { return (t[0] > t[1]) ^ (t[1] > t[2]) ^ (t[0] > t[2]); }
   Vertex corner_across(geometry::HalfEdge h) const {
     return geometry::start_of(soup_.triangles, geometry::previous_in_triangle(h));

@@ -340,7 +340,7 @@ void SideFinder::refuse_open_borders() const {
 // with its border could be. Files that tell the sides themselves are believed, and so are users who keep baffles: these
 // may bulge.
 void SideFinder::refuse_open_bodies() const {
-  struct Piece {
+  struct Component {
     std::size_t triangles = 0;
     double area = 0, border = 0;
     HalfEdge open = no_index;  // an edge of a single triangle
@@ -357,30 +357,30 @@ void SideFinder::refuse_open_bodies() const {
     find_fins(edge);
     for (const std::int32_t fin : fins) sets.join(fins[0], fin);
   });
-  std::map<std::int32_t, Piece> pieces;
+  std::map<std::int32_t, Component> components;
   for (std::int32_t t = 0; t < count(); ++t) {
     if (!has_same_on_both(t)) continue;
-    Piece& piece = pieces[sets.of(t)];
-    ++piece.triangles;
-    piece.area += norm(normal_of(soup_, t)) / 2;
+    Component& component = components[sets.of(t)];
+    ++component.triangles;
+    component.area += norm(normal_of(soup_, t)) / 2;
   }
   geometry::for_each_edge(soup_.points.size(), soup_.triangles, [&](std::span<const HalfEdge> edge) {
     find_fins(edge);
     if (fins.size() != 1) return;
-    Piece& piece = pieces[sets.of(fins[0])];
-    piece.border += norm(soup_.points[geometry::end_of(soup_.triangles, edge[0])] -
-                         soup_.points[geometry::start_of(soup_.triangles, edge[0])]);
-    if (edge.size() == 1 && (piece.open == no_index || edge[0] < piece.open)) piece.open = edge[0];
+    Component& component = components[sets.of(fins[0])];
+    component.border += norm(soup_.points[geometry::end_of(soup_.triangles, edge[0])] -
+                             soup_.points[geometry::start_of(soup_.triangles, edge[0])]);
+    if (edge.size() == 1 && (component.open == no_index || edge[0] < component.open)) component.open = edge[0];
   });
-  for (const auto& [first, piece] : pieces) {
-    if (piece.open == no_index || is_sheet(piece.area, piece.border)) continue;
-    const Vec3 &from = soup_.points[geometry::start_of(soup_.triangles, piece.open)],
-               &to = soup_.points[geometry::end_of(soup_.triangles, piece.open)];
+  for (const auto& [first, component] : components) {
+    if (component.open == no_index || is_sheet(component.area, component.border)) continue;
+    const Vec3 &from = soup_.points[geometry::start_of(soup_.triangles, component.open)],
+               &to = soup_.points[geometry::end_of(soup_.triangles, component.open)];
     throw DataError::at(
-        soup_.place_of(geometry::triangle_of(piece.open)),
+        soup_.place_of(geometry::triangle_of(component.open)),
         "expected a closed surface, found {} triangles that enclose a space with a hole; an edge of the "
         "hole is from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}){}",
-        piece.triangles, from.x, from.y, from.z, to.x, to.y, to.z, remedy_);
+        component.triangles, from.x, from.y, from.z, to.x, to.y, to.z, remedy_);
   }
 }
 

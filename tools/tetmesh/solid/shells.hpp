@@ -22,7 +22,7 @@ enum class ShellRule {
   holes      // in turn from outside: material, hole, material, whatever the orientation
 };
 
-// What becomes of triangles inside that have the same region on both sides.
+// Whether triangles inside that have the same region on both sides stay.
 enum class BaffleRule { drop, keep };
 
 constexpr std::int32_t outside_region = 0;

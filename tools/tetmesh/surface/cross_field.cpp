@@ -83,7 +83,7 @@ class FieldSolver {
 
  private:
   std::vector<Complex> curvature() const;
-  // What u of a triangle would be if the triangle had the directions of the one on its other side.
+  // The u of a triangle, seen from the directions of the triangle on the other side of an edge.
   Complex seen_from(std::int32_t triangle, std::int32_t opposite, Complex u) const;
 
   // The factor exp(i angle) that makes a direction of h's triangle one of its neighbour's. The edge runs the other way

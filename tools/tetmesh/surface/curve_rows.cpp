@@ -30,7 +30,7 @@ class CurveMeasurer {
 
   // Numbers of steps for all of them together.
   void plan(std::span<const FeatureCurve> curves, std::vector<MeasuredCurve>& measured) const {
-    CurveOfHalfEdge curve_of(links_.of.size(), -1);
+    CurveOfHalfEdge curve_of(links_.of.size(), no_index);
     std::vector<CurveDemand> demands;
     for (std::size_t i = 0; i < curves.size(); ++i) {
       const std::vector<VertexH>& vertices = curves[i].vertices;

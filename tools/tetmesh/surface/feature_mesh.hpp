@@ -91,7 +91,7 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // Whether a region is on both sides of the face.
   bool is_interface(FaceHandle f) const { return is_interface_[source(f)]; }
 
-  // What is left of the input, with its tags and shells. Sheets are joined again.
+  // The surface as the mesh is now, with the input's tags and shells. Sheets are joined again.
   solid::Surface to_surface(const solid::Surface& input) const;
   // By place, the number of its point in to_surface(); no_index where no vertex is left.
   std::vector<hexpipe::Vertex> point_numbers() const;

@@ -32,10 +32,10 @@ using Equation = fields::WholeEquation;
 // The faces between features, with two directions that are the same all over each of them where that is possible.
 class FaceFinder {
  public:
-  explicit FaceFinder(const SurfaceLinks& links) : links_(links), face_of_(links.surface.triangles.size(), -1) {
+  explicit FaceFinder(const SurfaceLinks& links) : links_(links), face_of_(links.surface.triangles.size(), no_index) {
     axes_.resize(face_of_.size());
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(face_of_.size()); ++f)
-      if (face_of_[f] < 0) flood(f);
+      if (face_of_[f] == no_index) flood(f);
     check();
   }
 
@@ -59,7 +59,7 @@ class FaceFinder {
     for (std::size_t i = 0; i < queue.size(); ++i)
       for (HalfEdge h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h) {
         const std::int32_t beyond = links_.of[h].neighbour;
-        if (beyond < 0 || face_of_[beyond] >= 0) continue;
+        if (beyond == no_index || face_of_[beyond] != no_index) continue;
         face_of_[beyond] = face;
         axes_[beyond] = axes_[queue[i]];
         for (FollowedAxis& axis : axes_[beyond]) axis.cross(links_, h);
@@ -94,7 +94,7 @@ class EquationFinder {
     sums_.resize(2 * faces_.count());
     ends_.resize(faces_.count());
     for (HalfEdge h = 0; h < static_cast<HalfEdge>(curve_of_.size()); ++h)
-      if (curve_of_[h] >= 0) add(h);
+      if (curve_of_[h] != no_index) add(h);
     std::vector<Equation> equations;
     auto unknowns = static_cast<std::int32_t>(curves_.size());
     for (std::int32_t face = 0; face < static_cast<std::int32_t>(faces_.count()); ++face) {

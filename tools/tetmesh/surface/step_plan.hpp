@@ -9,8 +9,8 @@
 
 namespace hexpipe::tetmesh::surface {
 
-// For each half-edge of a feature, the curve that it is on; -1 elsewhere. Where sheets meet in a curve, those of all
-// sheets are.
+// For each half-edge of a feature, the curve that it is on; no_index elsewhere. Where sheets meet in a curve, those of
+// all sheets are.
 using CurveOfHalfEdge = std::vector<std::int32_t>;
 
 struct CurveDemand {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
+#include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/surface/feature_paths.hpp"
 
 namespace hexpipe::tetmesh::surface {

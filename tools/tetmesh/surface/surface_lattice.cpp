@@ -198,7 +198,7 @@ void LatticeMaker::measure_distances() {
 Phases LatticeMaker::view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const {
   Phases sum{};
   for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
-    if (links_.of[h].neighbour >= 0) links_.of[h].add_seen(phases[links_.of[h].neighbour], sum);
+    if (links_.of[h].neighbour != no_index) links_.of[h].add_seen(phases[links_.of[h].neighbour], sum);
   for (const SurfaceLink& link : across_.of(f)) link.add_seen(phases[link.neighbour], sum);
   return sum;
 }
@@ -228,7 +228,7 @@ void LatticeMaker::reach_the_rest() {
   for (std::int32_t seed = 0; seed < count; ++seed) {
     for (; next < queue.size(); ++next)
       for (geometry::HalfEdge h = 3 * queue[next]; h < 3 * queue[next] + 3; ++h) {
-        if (links_.of[h].neighbour < 0 || reached[links_.of[h].neighbour]) continue;
+        if (links_.of[h].neighbour == no_index || reached[links_.of[h].neighbour]) continue;
         reach(links_.of[h].neighbour, links_.of[surface_.twins[h]].seen(phases_[queue[next]]));
       }
     if (!reached[seed]) reach(seed, {fields::Complex(1), fields::Complex(1)});

@@ -92,7 +92,7 @@ class SurfaceRemesher::Work {
   std::size_t count_places(std::span<const Vertex> vertices) const;
   Vec3 centre_of(std::size_t triangle) const;
 
-  // What points on faces are placed by.
+  // The surface, its size field and its directions, which decide where points on faces lie.
   struct Carrier {
     FeatureMesh mesh;  // with the points on features, before there are others
     std::vector<Vertex> kept;

@@ -76,7 +76,7 @@ class Thinner {
     FeatureMesh::HalfedgeHandle collapse;
   };
 
-  // Of the faces around the vertex together. At a vertex that noise has put far out each face is turned from it.
+  // The normal of all faces around the vertex. At a vertex that noise has put far out each face is turned from it.
   const Vec3& normal_around() {
     if (!normal_around_) {
       normal_around_.emplace();

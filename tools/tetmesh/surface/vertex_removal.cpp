@@ -251,7 +251,7 @@ void VertexRemover::describe_collapse(HalfEdgeH collapse) {
     }
     change_.faces.push_back(f);
     change_.corners.push_back(after);
-    // Of the two edges at the corner that moved, one also belongs to the next face, or was there before.
+    // One of the two edges at the corner that moved belongs to the next face, too, or was there before.
     change_.places.push_back(middle_of(after));
     change_.places.push_back(0.5 * (after[moved] + after[(moved + 1) % 3]));
   }

@@ -76,7 +76,7 @@ class RegionFinder {
 
  private:
   void place_beside(std::size_t triangle);
-  void place(std::int32_t tet, std::int32_t region);
+  void place(TetIndex tet, std::int32_t region);
   void spread();
 
   const solid::Surface& surface_;
@@ -110,7 +110,7 @@ void RegionFinder::place_beside(std::size_t triangle) {
   }
 }
 
-void RegionFinder::place(std::int32_t tet, std::int32_t region) {
+void RegionFinder::place(TetIndex tet, std::int32_t region) {
   if (regions_[tet] == region) return;
   if (regions_[tet] != unknown_region)
     throw failure_at(surface_.name, "its tets join regions that the surface keeps apart");

@@ -82,7 +82,7 @@ class LineTracer {
     Triangle corners;
     std::int32_t ends;
   };
-  // Of a line, in a tet or where it leaves the volume.
+  // A stop of a line, in a tet or where it leaves the volume.
   struct Stop {
     Vec3 place;
     bool at_surface, at_singularity;

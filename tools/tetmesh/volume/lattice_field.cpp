@@ -7,6 +7,7 @@
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/fields/curl_correction.hpp"
 #include "tools/tetmesh/fields/lattice_steps.hpp"
+#include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/fields/periodic_numbers.hpp"
 
 namespace hexpipe::tetmesh::volume {

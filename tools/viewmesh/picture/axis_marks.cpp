@@ -22,7 +22,7 @@ struct Axis {
 void draw_axes(Picture& picture, const Camera& camera, double em, const nlohmann::json& colours) {
   std::array axes{Axis{"x", {1, 0, 0}, 0}, Axis{"y", {0, 1, 0}, 0}, Axis{"z", {0, 0, 1}, 0}};
   for (Axis& axis : axes) axis.towards = dot(axis.direction, camera.towards);
-  // What is nearer is drawn over what is farther.
+  // The nearer axes are drawn over the farther ones.
   std::ranges::sort(axes, {}, &Axis::towards);
   const Font font(em);
   const Place middle{corner * em, picture.height - corner * em};

@@ -36,17 +36,17 @@ double distance_to_line(Place from, Place to, Place p) {
 
 }  // namespace
 
-void mix(Picture& picture, int x, int y, const Rgb& colour, double part) {
-  if (x < 0 || y < 0 || x >= picture.width || y >= picture.height || !(part > 0)) return;
+void mix(Picture& picture, int x, int y, const Rgb& colour, double share) {
+  if (x < 0 || y < 0 || x >= picture.width || y >= picture.height || !(share > 0)) return;
   std::uint8_t* const pixel = picture.rgb.data() + 3 * (std::size_t{1} * y * picture.width + x);
   for (std::size_t i = 0; i < 3; ++i)
-    pixel[i] = static_cast<std::uint8_t>(std::lround(pixel[i] * (1 - part) + colour[i] * part));
+    pixel[i] = static_cast<std::uint8_t>(std::lround(pixel[i] * (1 - share) + colour[i] * share));
 }
 
-void fill_box(Picture& picture, const Box& box, double radius, const Rgb& colour, double part) {
+void fill_box(Picture& picture, const Box& box, double radius, const Rgb& colour, double share) {
   for_each_pixel(
       picture, box, [&](Place p) { return distance_to_box(box, radius, p); },
-      [&](int x, int y, double covered) { mix(picture, x, y, colour, part * covered); });
+      [&](int x, int y, double covered) { mix(picture, x, y, colour, share * covered); });
 }
 
 void fill_ramp(Picture& picture, const Box& box, double radius, const std::vector<Rgb>& colours) {

@@ -23,11 +23,11 @@ struct Box {
   double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-// Mixes a colour into a pixel; `part` from 0 to 1. Pixels outside stay out.
-void mix(Picture& picture, int x, int y, const Rgb& colour, double part);
+// Mixes a colour into a pixel; `share` from 0 to 1. Pixels outside stay out.
+void mix(Picture& picture, int x, int y, const Rgb& colour, double share);
 
 // With round corners.
-void fill_box(Picture& picture, const Box& box, double radius, const Rgb& colour, double part = 1);
+void fill_box(Picture& picture, const Box& box, double radius, const Rgb& colour, double share = 1);
 // From the left to the right through all colours.
 void fill_ramp(Picture& picture, const Box& box, double radius, const std::vector<Rgb>& colours);
 // With round ends.

@@ -1,5 +1,5 @@
 #pragma once
-// What the legend of a picture says; page/legend.js says the same.
+// The lines of a picture's legend; page/legend.js has the same.
 
 #include <optional>
 #include <string>

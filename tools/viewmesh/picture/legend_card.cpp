@@ -9,7 +9,7 @@ namespace {
 
 // In ems.
 constexpr double margin = 1, padding = 0.9, swatch = 0.75, swatch_step = 1.2, narrowest_card = 9;
-// Of the picture's width, the card takes no more.
+// The card takes no more of the picture's width.
 constexpr double greatest_share = 0.34;
 
 }  // namespace
@@ -99,10 +99,10 @@ Frame LegendCard::free_frame() const {
 void LegendCard::draw_ticks(Picture& picture, double baseline, const Rgb& colour) const {
   const double left = box_.left + padding * em_, width = box_.right - box_.left - 2 * padding * em_;
   for (std::size_t i = 0; i < ticks_.size(); ++i) {
-    const double part = static_cast<double>(i) / static_cast<double>(ticks_.size() - 1);
+    const double share = static_cast<double>(i) / static_cast<double>(ticks_.size() - 1);
     // Below its place of the scale, but for the first and the last, which stay within its ends.
     const double own = small_.width(ticks_[i]);
-    const double x = std::clamp(left + part * width - own / 2, left, left + width - own);
+    const double x = std::clamp(left + share * width - own / 2, left, left + width - own);
     small_.draw(picture, {x, baseline}, ticks_[i], colour);
   }
 }

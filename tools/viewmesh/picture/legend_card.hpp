@@ -10,10 +10,10 @@ namespace hexpipe::viewmesh::picture {
 
 class LegendCard {
  public:
-  // Of a picture of this size, in letters of `em` pixels. Groups that have no room are counted in the last line.
+  // For a picture of this size, in letters of `em` pixels. Groups that have no room are counted in the last line.
   LegendCard(const Legend& legend, double em, int width, int height);
 
-  // What the card leaves free: the picture's left part, of an upright picture the lower one.
+  // The frame that the card leaves free: left of it, in an upright picture below it.
   Frame free_frame() const;
   void draw(Picture& picture, bool dark) const;
 

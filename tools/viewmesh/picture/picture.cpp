@@ -22,7 +22,7 @@ namespace {
 
 // Drawn this much larger each way and averaged.
 constexpr int oversampling = 2;
-// Of the picture, or of what the legend leaves of it, this much stays free around a part that fits.
+// This share of the picture, or of the frame beside the legend, stays free around a model that fits.
 constexpr double border = 0.05;
 // Smaller pictures have neither legend nor axes.
 constexpr int least_width = 360, least_height = 240;
@@ -94,7 +94,7 @@ std::vector<LineVertex> line_triangles(const std::vector<Polyline>& lines) {
   for (const Polyline& line : lines)
     for (std::size_t i = 1; i < line.size(); ++i) {
       const auto a = single(line[i - 1]), b = single(line[i]);
-      // What is left of a line seen from its end is right of it seen from its begin.
+      // Left of a line seen from its end is right of it seen from its begin.
       const LineVertex left{a, b, 1}, right{a, b, -1}, far_right{b, a, 1}, far_left{b, a, -1};
       vertices.insert(vertices.end(), {left, right, far_right, left, far_right, far_left});
     }

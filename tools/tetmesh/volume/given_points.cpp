@@ -1,4 +1,4 @@
-#include "tools/tetmesh/volume/point_kinds.hpp"
+#include "tools/tetmesh/volume/given_points.hpp"
 
 #include <fmt/format.h>
 
