@@ -13,7 +13,7 @@ build_packages=(
   libarchive-dev libzstd-dev libpugixml-dev zlib1g-dev
   libopenmesh-dev libtet1.5-dev libcgal-dev libeigen3-dev libgmp-dev libmpfr-dev coinor-libclp-dev
   libmetis-dev libopenmpi-dev openmpi-bin
-  libocct-data-exchange-dev libocct-modeling-algorithms-dev
+  libocct-data-exchange-dev libocct-modeling-algorithms-dev libfontconfig-dev
   libexodusii-dev libmedc-dev libcgns-dev
   esbuild libjs-three libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core help2man
 )

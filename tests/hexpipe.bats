@@ -82,6 +82,9 @@ setup_file() {
   run hexpipe part.STEP -o x.vtu --dry-run
   assert_line --index 0 "tessellate part.STEP |"
   assert_line "  fitcad -o x.vtu"
+  run hexpipe part.step -o x.inp --solver calculix --dry-run
+  assert_line "  assemble |"
+  assert_line "  fitcad --solver calculix -o x.inp"
   run hexpipe --mesh tets.msh -o x.vtu --dry-run
   assert_line --index 0 "findhex --mesh tets.msh |"
 }
@@ -93,6 +96,8 @@ setup_file() {
   assert_conforming simp.vtu
   hexpipe -q --keep stages --from result -o again.vtu
   assert_same_bytes simp.vtu again.vtu
+  hexpipe -q --keep stages --from result --solver calculix -o simp.inp
+  grep -q "TYPE=C3D8I" simp.inp
 }
 
 @test "tets of another program go in by --mesh" {

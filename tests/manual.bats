@@ -38,6 +38,9 @@ completions() {
   assert_equal "$(completions lns --seed '')" ""
   # N is what the help calls its value, and false to CMake.
   assert_equal "$(completions lns --iterations '')" ""
+  assert_equal "$(completions hexpipe --from ch)" choice
+  mkdir kept
+  assert_equal "$(completions hexpipe --keep ke)" kept
   if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
     # [N]: a number, or the surface or the next option.
     assert_equal "$(completions tetmesh --layers pa)" part.mesh

@@ -32,10 +32,10 @@ def tags_of(name):
     return [int(tag) for tag, value in names["surfaces"].items() if value == name]
 
 def area(tag):
-    return sum(np.linalg.norm(np.cross(points[b] - points[a], points[c] - points[a])) / 2 for (a, b, c), t in zip(triangles, triangle_tags) if t == tag)
+    return float(sum(np.linalg.norm(np.cross(points[b] - points[a], points[c] - points[a])) / 2 for (a, b, c), t in zip(triangles, triangle_tags) if t == tag))
 
 def volume():
-    return sum(np.linalg.det(points[list(t)]) / 6 for t in triangles)
+    return float(sum(np.linalg.det(points[list(t)]) / 6 for t in triangles))
 
 def open_edges():
     count = {}
@@ -196,7 +196,7 @@ PYTHON
   # Half of it is inside.
   run_apart tessellate poking-baffle.step --keep-baffles -o poking.tar
   assert_equal "$stderr" "tessellate: warning: poking-baffle.step: 1 face outside of all bodies, or on their boundary, is no baffle and left out"
-  assert_equal "$(surface poking.tar 'points[:, 2].max(), sides.tolist().count([1, 1])')" "(4.0, 2)"
+  assert_equal "$(surface poking.tar 'float(points[:, 2].max()), sides.tolist().count([1, 1])')" "(4.0, 2)"
   run_apart tessellate baffle-outside.step --keep-baffles -o outside.tar
   assert_equal "$stderr" "tessellate: warning: baffle-outside.step: 1 face outside of all bodies, or on their boundary, is no baffle and left out"
   # Without sheets, it joins bodies that touch.

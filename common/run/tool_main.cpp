@@ -176,7 +176,7 @@ void declare_common(CLI::App& app, RunContext& context) {
       app.add_option("--stats", common.stats_file, "Write counts and times to a file as JSON; '-': to standard output"))
       ->type_name("FILE");
   outside_history(app.add_flag("-v,--verbose", common.verbose, "Report what is done, on standard error"));
-  outside_history(app.add_flag("-q,--quiet", common.quiet, "No warnings"));
+  outside_history(app.add_flag("-q,--quiet", common.quiet, "Only errors: no progress, no warnings"));
   outside_history(app.set_config("--config", "", "Read options from a file (name=value)"))->type_name("FILE");
   app.allow_config_extras(CLI::config_extras_mode::error);
 }

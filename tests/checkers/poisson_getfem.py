@@ -84,8 +84,8 @@ def examine(path):
     points = np.empty((3, fem.nbdof()))
     points[:, fem.basic_dof_from_cvid()[0]] = mesh.pts()[:, mesh.pid_from_cvid()[0]]
     x, y, z = points
-    low, high = mesh.pts().min(axis=1), mesh.pts().max(axis=1)
-    k = 3 / (high - low).max()
+    low, high = mesh.pts().min(axis=1).tolist(), mesh.pts().max(axis=1).tolist()
+    k = 3 / max(b - a for a, b in zip(low, high))
 
     linear = 1 + 2 * k * x - 3 * k * y + 5 * k * z
     patch = np.abs(solve(mesh, fem, integration, linear, None) - linear).max()

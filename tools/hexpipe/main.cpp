@@ -66,10 +66,8 @@ int main(int argc, char** argv) {
     app.add_option("--mesh", options.mesh, "Tets of another program, instead of a surface")->type_name("FILE");
     app.add_option("--keep", options.keep, "Keep what each stage makes in this folder, as NAME.tar")
         ->type_name("FOLDER");
-    app.add_option(
-           "--from", options.from,
-           "Go on from what an earlier run kept: surface, mesh, candidates, conflicts, solution, choice or result")
-        ->type_name("NAME");
+    app.add_option("--from", options.from, "Go on from what an earlier run kept")
+        ->type_name("NAME:{surface,mesh,candidates,conflicts,solution,choice,result}");
     app.add_option("--seed", seed, "Seed of the random numbers of all stages")->type_name("N");
     app.add_flag("--dry-run", dry_run, "Print the pipe as a shell command, and do nothing");
     begin_group(app, "Options of a stage");

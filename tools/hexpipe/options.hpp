@@ -1,6 +1,7 @@
 #pragma once
 // The options of hexpipe.
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>

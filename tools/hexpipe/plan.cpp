@@ -75,7 +75,6 @@ std::vector<std::string> words_of(const std::string& tool, const PipeOptions& op
   std::vector<std::string> words;
   const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
   if (tool == "tetmesh" && options.size) add({"--size", *options.size});
-  if (tool == "assemble" && options.solver) add({"--solver", *options.solver});
   if (options.threads) add({"--threads", std::to_string(*options.threads)});
   const bool is_random = tool == "tetmesh" || tool == "initsol" || tool == "lns";
   if (options.seed && is_random) add({"--seed", std::to_string(*options.seed)});
@@ -148,10 +147,13 @@ Plan plan_of(const PipeOptions& options) {
       else
         command.words.insert(command.words.begin(), options.input);
     }
-    if (s == last)
+    if (s == last) {
+      // The last stage writes for the solver; what the others write are bundles.
+      if (options.solver) command.words.insert(command.words.end(), {"--solver", *options.solver});
       command.words.insert(command.words.end(), {"-o", options.output});
-    else if (options.keep)
+    } else if (options.keep) {
       command.kept_in = kept_file(options, stages[s].product);
+    }
     plan.pipe.push_back(std::move(command));
   }
   if (!options.page && !options.picture) return plan;
