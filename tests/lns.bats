@@ -287,6 +287,22 @@ PYTHON
   assert_fails_with 2 "lns: .*--worth" hard out --worth 2
 }
 
+@test "--worth judges a large graph by a sample of its places" {
+  optimized_only "it is about results"
+  "$PYTHON" "$DATA/ring_graph.py" 60000 40000 1 >large.graph
+  initsol large.graph --no-reductions --iterations 60000 -o large.sol
+  large() { lns --graph large.graph --solution large.sol --no-reductions --stats "$1.json" -o "$1.sol" "${@:2}"; }
+  large usual
+  large whole --worth 0
+  "$PYTHON" - <<'PYTHON'
+import json
+usual, whole = (json.load(open(f"{name}.json")) for name in ("usual", "whole"))
+assert whole["complete"] and not usual["complete"], (usual, whole)
+assert usual["iterations"] < 0.9 * whole["iterations"], (usual, whole)
+assert usual["improvements"] > 0 and usual["weight"] >= (1 - 5e-5) * whole["weight"], (usual, whole)
+PYTHON
+}
+
 @test "what reductions solve ends at once" {
   ring --time-limit 100 -o solved.sol --stats stats.json --log log.jsonl
   "$PYTHON" - "$(weight_of solved.sol)" <<'PYTHON'

@@ -204,6 +204,43 @@ TEST(Initsol, EndsByItselfAfterSoManyIterationsAVertex) {
   EXPECT_NO_THROW(validate(reduced.solution, graph, "solution"));
 }
 
+// Each vertex in conflict with so many others of a window that begins at it.
+ConflictGraph random_band(std::int32_t vertices, std::int32_t neighbours, std::uint64_t window, Random& random) {
+  std::vector<std::int64_t> weights;
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::int32_t v = 0; v < vertices; ++v) {
+    weights.push_back(1 + static_cast<std::int64_t>(random.below(1000)));
+    for (std::int32_t i = 0; i < neighbours; ++i) {
+      const auto u = (v + 1 + static_cast<std::int32_t>(random.below(window))) % vertices;
+      edges.emplace_back(v, u);
+    }
+  }
+  return make_graph(weights, edges);
+}
+
+TEST(Initsol, CoolsALargeGraphSlowlyOnlyWhereTrialsSaySo) {
+  Random random(12);
+  constexpr std::int32_t vertices = 20000;
+  const InitsolOptions options{.iterations_a_vertex = 2, .tries_first = true, .reduce = false};
+  // Every second trial gains something where vertices are in conflict with some of many.
+  const ConflictGraph rugged = random_band(vertices, 8, 10000, random);
+  const InitsolResult slow = find_initial_solution(rugged, {}, options, no_deadline);
+  EXPECT_EQ(slow.iterations, 2 * vertices / 4 + 2 * vertices);
+  // A local optimum is the best of cliques.
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::int32_t v = 0; v < vertices; ++v)
+    for (std::int32_t u = v + 1; u % 8 != 0; ++u) edges.emplace_back(v, u);
+  std::vector<std::int64_t> weights(vertices);
+  for (std::int64_t& weight : weights) weight = 1 + static_cast<std::int64_t>(random.below(1000));
+  const ConflictGraph cliques = make_graph(weights, edges);
+  const InitsolResult soon = find_initial_solution(cliques, {}, options, no_deadline);
+  EXPECT_EQ(soon.iterations, 2 * vertices / 4);
+  std::int64_t best = 0;
+  for (std::int32_t v = 0; v < vertices; v += 8)
+    best += *std::max_element(weights.begin() + v, weights.begin() + v + 8);
+  EXPECT_EQ(soon.weight, best);
+}
+
 TEST(Initsol, StopsAtItsDeadline) {
   Random random(8);
   const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.1, 1000, random);

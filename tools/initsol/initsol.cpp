@@ -19,8 +19,8 @@ constexpr std::int64_t most_moves_a_round = 1000;
 // A search with few iterations cools down in at least this many steps.
 constexpr std::int64_t least_rounds = 100;
 
-// Annealing of graphs of this many vertices tries first whether cooling slowly will gain anything (tries_first). Smaller
-// ones cool in a second.
+// Annealing of graphs of this many vertices tries first whether cooling slowly will gain anything (tries_first).
+// Smaller ones cool in a second.
 constexpr std::int32_t least_to_try = 20000;
 // Of what 15 moves a vertex gain over the first local optimum, a quarter of a move, begun in the middle of the
 // temperatures, gains 96 to 100 % on graphs of hexes, in a tenth of the time: 0.141 of 0.145 % on mambo-m1, 0.347 of

@@ -25,15 +25,15 @@ constexpr int kicks_a_vertex = 20;
 // replaced by all its neighbours in no other way.
 constexpr std::size_t hub_factor = 16;
 // The whole work of the stop rule (--worth) is to anneal the whole graph this many times. Large graphs gain for longer:
-// on random-33k, 0.4 times would end at 10,100,430 after 2 s of lns, which finds 10,129,518 in a minute. On a lattice of
-// 6 x 6 x 6 hexes (5,300 vertices), whose best solution is found at once, 0.4 times are half a second.
+// on random-33k, 0.4 times would end at 10,100,430 after 2 s of lns, which finds 10,129,518 in a minute. On a lattice
+// of 6 x 6 x 6 hexes (5,300 vertices), whose best solution is found at once, 0.4 times are half a second.
 double whole_coolings(const graph::ConflictGraph& graph) {
   constexpr double vertices_a_cooling = 12500, least = 0.4, most = 5;
   return std::clamp(static_cast<double>(graph.vertex_count()) / vertices_a_cooling, least, most);
 }
 // The rule judges once the search has worked as long as annealing this many vertices once takes. Fragments begin
-// anywhere, so that what they gain tells of the rest, too: of 1.2 million candidates of a CAD model, the last gain comes
-// after 2 % of a cooling.
+// anywhere, so that what they gain tells of the rest, too: of 1.2 million candidates of a CAD model, the last gain
+// comes after 2 % of a cooling.
 constexpr double vertices_of_sample = 30000;
 
 class Lns {

@@ -5,6 +5,7 @@
 #include "tools/tetmesh/volume/row_straightening.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -70,7 +71,9 @@ class EndStraightener {
   }
   void leave(std::int32_t i) { is_taken_[std::exchange(place_of_[i], no_index)] = false; }
   std::int32_t nearest(const Vec3& to, double reach) const;
-  bool come_together(const RowPoint& a, const RowPoint& b, std::size_t axis) const;
+  // By axis and sense: the place of the next point in the grid, or no_index; searched when first asked for.
+  using NextPoints = std::array<std::optional<std::int32_t>, 6>;
+  bool come_together(const RowPoint& a, const RowPoint& b, std::size_t axis, NextPoints& next_of_a) const;
   std::int32_t partner_of(std::int32_t i) const;
   void merge_at(std::int32_t i);
   std::vector<std::int32_t> beside_changes() const;
@@ -100,12 +103,17 @@ std::int32_t EndStraightener::nearest(const Vec3& to, double reach) const {
 }
 
 // Whether a single point is the next one of both, along the axis in either sense.
-bool EndStraightener::come_together(const RowPoint& a, const RowPoint& b, std::size_t axis) const {
+bool EndStraightener::come_together(const RowPoint& a, const RowPoint& b, std::size_t axis,
+                                    NextPoints& next_of_a) const {
   const double reach = reach_of_step * norm(a.steps[axis]);
-  for (const double sense : {1.0, -1.0}) {
-    const Vec3 step = sense * a.steps[axis];
-    const std::int32_t next = nearest(a.at + step, reach);
-    if (next != no_index && next == nearest(b.at + step, reach)) return true;
+  for (const bool backwards : {false, true}) {
+    const Vec3 step = (backwards ? -1.0 : 1.0) * a.steps[axis];
+    auto& next = next_of_a[2 * axis + (backwards ? 1 : 0)];
+    if (!next) next = nearest(a.at + step, reach);
+    if (*next == no_index) continue;
+    // In a regular lattice it is out of reach, which spares nearly all further searches.
+    if (norm_squared(grid_.points()[*next] - (b.at + step)) >= reach * reach) continue;
+    if (*next == nearest(b.at + step, reach)) return true;
   }
   return false;
 }
@@ -114,13 +122,15 @@ bool EndStraightener::come_together(const RowPoint& a, const RowPoint& b, std::s
 std::int32_t EndStraightener::partner_of(std::int32_t i) const {
   const RowPoint& a = points_[i];
   const fields::InSteps in_steps(a.steps);
+  NextPoints next;
   std::int32_t partner = no_index;
   grid_.for_each_near(a.at, furthest_pair * longest_step(a), 0, [&](std::int32_t place) {
     const std::int32_t other = point_at_[place];
     if (!is_taken_[place] || other <= i) return true;
     const RowPoint& b = points_[other];
     const auto axis = axis_of_pair(in_steps(b.at - a.at));
-    if (axis && come_together(a, b, (*axis + 1) % 3) && come_together(a, b, (*axis + 2) % 3)) partner = other;
+    if (axis && come_together(a, b, (*axis + 1) % 3, next) && come_together(a, b, (*axis + 2) % 3, next))
+      partner = other;
     return partner == no_index;
   });
   return partner;
