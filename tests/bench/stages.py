@@ -50,7 +50,7 @@ def measure(folder, name, model, size, threads):
     os.remove(source)
     wall = time.monotonic() - begin
     return {"rows": rows, "seconds": sum(row[0] for row in rows.values()), "wall": wall, "tets": stats_of("tetmesh.json")["tets"],
-            "weight": stats_of("lns.json")["weight"], "volume": 100 * stats_of("assemble.json")["cells"]["hexes"]["share_of_volume"]}
+            "weight": stats_of("lns.json")["weight"], "volume": 100 * stats_of("assemble.json")["cells"]["hex"]["share_of_volume"]}
 
 
 def show(title, run):
