@@ -31,10 +31,13 @@ def stats_of(path):
 
 
 def size_for(model, tets):
-    """Tets are in proportion to the volume over the cube of the size."""
-    subprocess.run([meshes.tool("tetmesh"), "-q", model, "--size", TRIAL_SIZE, "--stats", "trial.json", "-o", "trial.tar"], check=True)
-    trial = stats_of("trial.json")
-    return trial["size"] * (trial["tets"] / tets) ** (1 / 3)
+    """Tets are nearly in proportion to the volume over the cube of the size: from a coarse mesh to one of a tenth, and on."""
+    size = TRIAL_SIZE
+    for wanted in (tets / 10, tets):
+        subprocess.run([meshes.tool("tetmesh"), "-q", model, "--size", str(size), "--stats", "trial.json", "-o", "trial.tar"], check=True)
+        trial = stats_of("trial.json")
+        size = trial["size"] * (trial["tets"] / wanted) ** (1 / 3)
+    return size
 
 
 def measure(folder, name, model, size, threads):

@@ -33,7 +33,7 @@ double whole_coolings(const graph::ConflictGraph& graph) {
 }
 // The rule judges once the search has worked as long as annealing this many vertices once takes. Fragments begin
 // anywhere, so that what they gain tells of the rest, too: of 1.2 million candidates of a CAD model, the last gain
-// comes after 2 % of a cooling.
+// comes within a twentieth of a cooling.
 constexpr double vertices_of_sample = 30000;
 
 class Lns {
