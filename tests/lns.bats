@@ -226,9 +226,8 @@ for key in ("seconds", "iteration", "weight"):
     values = [point[key] for point in points]
     assert values == sorted(values), key
 complete = json.load(open("stats.json"))["complete"]
-# At its start, lns makes the solution maximal, and ends the search earlier by what that took. So half of the limit is certain
-# on any machine. One that has other work may end late, but not as late as without the limit.
-assert complete or 0.25 <= points[-1]["seconds"] < 20
+# By the clock: on a machine that has other work it may end late.
+assert complete or 0.5 <= points[-1]["seconds"] < 20
 PYTHON
 }
 

@@ -206,16 +206,14 @@ TEST(Initsol, EndsByItselfAfterSoManyIterationsAVertex) {
 
 // Each vertex in conflict with so many others of a window that begins at it.
 ConflictGraph random_band(std::int32_t vertices, std::int32_t neighbours, std::uint64_t window, Random& random) {
-  std::vector<std::int64_t> weights;
   std::vector<std::pair<std::int32_t, std::int32_t>> edges;
   for (std::int32_t v = 0; v < vertices; ++v) {
-    weights.push_back(1 + static_cast<std::int64_t>(random.below(1000)));
     for (std::int32_t i = 0; i < neighbours; ++i) {
       const auto u = (v + 1 + static_cast<std::int32_t>(random.below(window))) % vertices;
       edges.emplace_back(v, u);
     }
   }
-  return make_graph(weights, edges);
+  return make_graph(hexpipe::testing::random_weights(vertices, 1000, random), edges);
 }
 
 TEST(Initsol, CoolsALargeGraphSlowlyOnlyWhereTrialsSaySo) {
@@ -230,8 +228,7 @@ TEST(Initsol, CoolsALargeGraphSlowlyOnlyWhereTrialsSaySo) {
   std::vector<std::pair<std::int32_t, std::int32_t>> edges;
   for (std::int32_t v = 0; v < vertices; ++v)
     for (std::int32_t u = v + 1; u % 8 != 0; ++u) edges.emplace_back(v, u);
-  std::vector<std::int64_t> weights(vertices);
-  for (std::int64_t& weight : weights) weight = 1 + static_cast<std::int64_t>(random.below(1000));
+  const std::vector<std::int64_t> weights = hexpipe::testing::random_weights(vertices, 1000, random);
   const ConflictGraph cliques = make_graph(weights, edges);
   const InitsolResult soon = find_initial_solution(cliques, {}, options, no_deadline);
   EXPECT_EQ(soon.iterations, 2 * vertices / 4);

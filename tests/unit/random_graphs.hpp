@@ -30,7 +30,7 @@ inline ConflictGraph make_graph(std::vector<std::int64_t> weights,
 // A candidate of quality 0.5.
 inline void add_candidate(Candidates& to, CellKind kind, std::vector<Vertex> corners,
                           const std::vector<std::int32_t>& tets, double volume = 2) {
-  corners.resize(8, -1);
+  corners.resize(8, no_index);
   std::copy(corners.begin(), corners.end(), to.vertices.emplace_back().begin());
   to.kind.push_back(kind);
   to.quality.push_back(0.5);

@@ -133,10 +133,10 @@ class Starts {
   void run(std::int64_t moves, double progress = 0) {
     const std::int64_t round = std::clamp<std::int64_t>(moves / least_rounds, 1, most_moves_a_round);
     Step step(nullptr);
-    for (std::int64_t done = 0; done < moves && !deadline_.passed() && !is_stuck_; done += round) {
+    for (std::int64_t done = 0; done < moves && !deadline_.passed(); done += round) {
       const double share = progress_of(done, moves, deadline_);
       step.reach(share);
-      make_moves(std::min(round, moves - done), progress + (1 - progress) * share);
+      if (!make_moves(std::min(round, moves - done), progress + (1 - progress) * share)) break;
     }
   }
   // Of the best start; before any moves, that of a local optimum.
@@ -146,14 +146,15 @@ class Starts {
   }
 
  private:
-  void make_moves(std::int64_t moves, double progress) {
+  // Whether a start made all moves it was asked for.
+  bool make_moves(std::int64_t moves, double progress) {
     asked_ += moves;
     parallel_for(std::ssize(searches_), 1, [&](std::int64_t i) { searches_[i]->run(moves, progress, deadline_); });
     if (weight() > reported_) {
       reported_ = weight();
       report_({moves_made(), reported_, [&] { return leader().best(); }});
     }
-    is_stuck_ = std::ranges::all_of(searches_, [&](const auto& search) { return search->moves() < asked_; });
+    return std::ranges::any_of(searches_, [&](const auto& search) { return search->moves() >= asked_; });
   }
   const Search& leader() const {
     return **std::ranges::max_element(searches_, {}, [](const auto& search) { return search->best_weight(); });
@@ -170,7 +171,6 @@ class Starts {
   const Report& report_;
   std::vector<std::unique_ptr<Search>> searches_;
   std::int64_t reported_ = 0, asked_ = 0;
-  bool is_stuck_ = false;  // no start made all moves it was asked for
 };
 
 // Whether cooling slowly will find more than two quick trials have: two short coolings from the middle of the
