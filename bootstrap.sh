@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs what hexpipe needs on Debian 12 or 13, builds it, and meshes a real part.
 #
-#   ./bootstrap.sh            everything
-#   ./bootstrap.sh packages   only the packages that build hexpipe
-#   ./bootstrap.sh tests      only these packages and those of the tests, as tests/run.sh needs them
+#   ./bootstrap.sh                 everything
+#   ./bootstrap.sh packages        only the packages that build hexpipe
+#   ./bootstrap.sh compile-tests   only these packages and those that compile its tests
+#   ./bootstrap.sh tests           only these packages and those that run the tests; tests/run.sh asks for them
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -17,8 +18,9 @@ build_packages=(
   libexodusii-dev libmedc-dev libcgns-dev
   esbuild libjs-three libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core help2man
 )
+compile_test_packages=(bats libgtest-dev libgmock-dev libbenchmark-dev)
 test_packages=(
-  bats bats-assert bats-support libgtest-dev libgmock-dev libbenchmark-dev
+  "${compile_test_packages[@]}" bats-assert bats-support
   python3 python3-numpy python3-meshio python3-vtk9 gmsh coinor-cbc zstd procps
   python3-getfem calculix-ccx python3-scipy python3-matplotlib
   netcdf-bin python3-netcdf4 python3-h5py libmed-tools cgns-convert
@@ -63,6 +65,10 @@ case "${1:-}" in
     install_packages "${build_packages[@]}"
     exit
     ;;
+  compile-tests)
+    install_packages "${build_packages[@]}" "${compile_test_packages[@]}"
+    exit
+    ;;
   tests)
     clang=19
     if grep -q '^VERSION_ID="12"' /etc/os-release; then clang=16; fi
@@ -71,7 +77,7 @@ case "${1:-}" in
     exit
     ;;
   *)
-    echo "usage: ./bootstrap.sh [packages|tests]" >&2
+    echo "usage: ./bootstrap.sh [packages|tests|compile-tests]" >&2
     exit 2
     ;;
 esac

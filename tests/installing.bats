@@ -20,6 +20,11 @@ bare_system() {
   grep -qw cmake installed
   for package in bats gmsh chromium libgtest-dev python3-vtk9; do refute grep -qw "$package" installed; done
   rm installed
+  PATH="$PWD/stubs:$PATH" run "$HEXPIPE_SOURCE/bootstrap.sh" compile-tests
+  assert_success
+  for package in cmake bats libgtest-dev; do grep -qw "$package" installed; done
+  for package in gmsh chromium python3-vtk9; do refute grep -qw "$package" installed; done
+  rm installed
   PATH="$PWD/stubs:$PATH" run "$HEXPIPE_SOURCE/bootstrap.sh" tests
   assert_success
   for package in cmake bats gmsh chromium libgtest-dev python3-vtk9; do grep -qw "$package" installed; done

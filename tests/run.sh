@@ -1,36 +1,75 @@
 #!/usr/bin/env bash
 # Runs every test twice: compiled by g++ and optimized, and compiled by clang++ with asserts under the address and
 # undefined-behaviour sanitizers. Installs what is missing, treats warnings as errors. Ends with the closing line of ctest.
+#
+# What can wait for something else does not hold it up: most packages are installed while the optimized half compiles, and
+# the sanitized half compiles in the time that the optimized tests leave.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-./bootstrap.sh tests
-
-# Sanitized tools are slow, and TetGen leaks what it allocates.
-export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1:abort_on_error=0}"
-export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
+logs=$(mktemp -d)
 jobs=$(nproc)
-# Many of them wait: for signals, for a stalled input, for a time limit.
+# Many tests wait: for signals, for a stalled input, for a time limit.
 tests_at_once=$((2 * jobs))
 
-# clang++ needs two thirds of the time of g++ for sanitized code, and sees other faults. Without it g++ does both.
-clang=
-for version in 16 19; do
-  if [[ -z $clang ]] && command -v "clang++-$version" >/dev/null; then clang=$version; fi
-done
+sanitized_build=  # a process group
+trap 'if [[ -n $sanitized_build ]]; then kill -- "-$sanitized_build" 2>/dev/null || true; fi; rm -rf "$logs"' EXIT
 
-for preset in ci ci-sanitize; do
-  if [[ $preset == ci-sanitize && -n $clang ]]; then
-    export CC="clang-$clang" CXX="clang++-$clang" LDFLAGS="-fuse-ld=lld"
+# outcome PID LOG: waits for a job. Only one that failed is heard.
+outcome() {
+  if ! wait "$1"; then
+    cat "$2" >&2
+    return 1
+  fi
+}
+
+build() {
+  cmake --preset "$1"
+  cmake --build --preset "$1" --parallel "$jobs"
+}
+
+run_tests() {
+  ctest --test-dir "build-$1" --output-on-failure --parallel "$tests_at_once" --no-tests=error
+}
+
+# Names the compiler of the sanitized half. clang++ needs two thirds of the time of g++ for sanitized code, and sees other
+# faults. Without it g++ does both.
+choose_sanitizing_compiler() {
+  local version
+  for version in 16 19; do
+    if ! command -v "clang++-$version" >/dev/null; then continue; fi
+    export CC="clang-$version" CXX="clang++-$version" LDFLAGS="-fuse-ld=lld"
     # Leaks of libraries are known by the names of their functions. What it says of plugins that are gone by then would
     # be one more line on the standard error of a tool.
     export ASAN_SYMBOLIZER_PATH="$PWD/build-ci-sanitize/llvm-symbolizer"
     mkdir -p build-ci-sanitize
-    printf '#!/bin/sh\nexec /usr/lib/llvm-%s/bin/llvm-symbolizer "$@" 2>/dev/null\n' "$clang" >"$ASAN_SYMBOLIZER_PATH"
+    printf '#!/bin/sh\nexec /usr/lib/llvm-%s/bin/llvm-symbolizer "$@" 2>/dev/null\n' "$version" >"$ASAN_SYMBOLIZER_PATH"
     chmod +x "$ASAN_SYMBOLIZER_PATH"
-  fi
-  cmake --preset "$preset"
-  cmake --build --preset "$preset" --parallel "$jobs"
-  # tests/reproducible.bats compares the results of the sanitized tools with those of the optimized ones.
-  if [[ $preset == ci-sanitize ]]; then export HEXPIPE_OTHER_BIN="$PWD/build-ci/bin"; fi
-  ctest --test-dir "build-$preset" --output-on-failure --parallel "$tests_at_once" --no-tests=error
-done
+    return
+  done
+}
+
+./bootstrap.sh compile-tests
+./bootstrap.sh tests >"$logs/packages" 2>&1 &
+packages=$!
+build ci
+outcome "$packages" "$logs/packages"
+
+set -m
+(
+  choose_sanitizing_compiler
+  renice -n 19 -p $BASHPID >/dev/null
+  build ci-sanitize
+) >"$logs/sanitized-build" 2>&1 &
+sanitized_build=$!
+set +m
+run_tests ci
+outcome "$sanitized_build" "$logs/sanitized-build"
+sanitized_build=
+
+choose_sanitizing_compiler
+# Sanitized tools are slow, and TetGen leaks what it allocates.
+export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1:abort_on_error=0}"
+export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
+# tests/reproducible.bats compares the results of the sanitized tools with those of the optimized ones.
+export HEXPIPE_OTHER_BIN="$PWD/build-ci/bin"
+run_tests ci-sanitize

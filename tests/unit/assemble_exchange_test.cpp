@@ -11,6 +11,7 @@
 #include "common/mwis/ground/solution_state.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
+#include "random_cases.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/choice/exchange.hpp"
 #include "tools/assemble/choice/exchange_search.hpp"
@@ -115,7 +116,7 @@ TEST(Exchange, ACellAcrossCubesGivesWayToThem) {
 
 // Selection, from which open quads are counted here, refuses cells that cannot stand together.
 TEST(Exchange, LeavesFewerQuadsOpenAndHexesWithMoreVolume) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= hexpipe::testing::random_cases(20); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     // Two regions, whose interface cells do not cross but quads of both lie on.
@@ -138,7 +139,7 @@ TEST(Exchange, LeavesFewerQuadsOpenAndHexesWithMoreVolume) {
 }
 
 TEST(Exchange, APartialChoiceIsNotFilledUp) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= hexpipe::testing::random_cases(20); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     auto lattice = make_lattice(4);
@@ -165,7 +166,7 @@ TEST(Exchange, NothingComesOfNothing) {
 
 TEST(Exchange, PrismsAndPyramidsStay) {
   std::int64_t exchanged = 0, others = 0;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= hexpipe::testing::random_cases(10); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     auto lattice = make_lattice(4);

@@ -10,6 +10,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
+#include "random_cases.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/choice/selection.hpp"
 #include "tools/assemble/conform/conform.hpp"
@@ -556,11 +557,7 @@ struct Scene {
 
 TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
   std::int64_t changed = 0, merged_on_surface = 0;
-#ifdef __SANITIZE_ADDRESS__
-  constexpr std::int64_t seeds = 400;  // they are slow then
-#else
-  constexpr std::int64_t seeds = 2000;
-#endif
+  constexpr std::int64_t seeds = hexpipe::testing::random_cases(2000);
   for (std::int64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     Scene scene(seed, Random(seed));

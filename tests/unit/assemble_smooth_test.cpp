@@ -4,6 +4,7 @@
 #include "cell_shapes.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
+#include "random_cases.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/conform/flat_tets.hpp"
 #include "tools/assemble/shape/point_star.hpp"
@@ -242,11 +243,7 @@ TEST(Smooth, HexesGrowAndTheRestStaysGoodEnough) {
 // Pyramids and tets beside them become better at the cost of hexes, but not below what findhex asks of these.
 TEST(Smooth, HexesKeepAScaledJacobianOfThreeTenths) {
   double least = 1;
-#ifdef __SANITIZE_ADDRESS__
-  constexpr std::uint64_t seeds = 5;  // they are slow then
-#else
-  constexpr std::uint64_t seeds = 20;
-#endif
+  constexpr std::uint64_t seeds = hexpipe::testing::random_cases(20);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);

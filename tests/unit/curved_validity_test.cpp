@@ -10,10 +10,11 @@
 #include <random>
 #include <vector>
 
+#include "cell_shapes.hpp"
 #include "common/curved/bend.hpp"
 #include "common/curved/nodes.hpp"
 #include "common/mesh/mixed_mesh.hpp"
-#include "cell_shapes.hpp"
+#include "random_cases.hpp"
 
 namespace hexpipe {
 namespace {
@@ -160,7 +161,7 @@ TEST_P(CurvedValidity, AgreesWithSamplingOnThousandsOfCells) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> amount(-1, 1);
   int valid = 0, invalid = 0, missed = 0;
-  for (int cell = 0; cell < 1500; ++cell) {
+  for (int cell = 0; cell < hexpipe::testing::random_cases(1500); ++cell) {
     std::vector<Vec3> nodes = unit_nodes(kind, full);
     const double most = 0.03 + 0.27 * (cell % 100) / 100;
     for (Vec3& node : nodes) node += most * Vec3{amount(random), amount(random), amount(random)};
@@ -170,9 +171,9 @@ TEST_P(CurvedValidity, AgreesWithSamplingOnThousandsOfCells) {
     (is_valid ? valid : invalid) += 1;
     missed += least > 0.03 && !is_valid ? 1 : 0;
   }
-  EXPECT_GT(valid, 150);
-  EXPECT_GT(invalid, 150);
-  EXPECT_LE(missed, 15);  // between the samples, or undecided
+  EXPECT_GT(valid, hexpipe::testing::random_cases(150));
+  EXPECT_GT(invalid, hexpipe::testing::random_cases(150));
+  EXPECT_LE(missed, hexpipe::testing::random_cases(15));  // between the samples, or undecided
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CurvedValidity, ::testing::Combine(::testing::ValuesIn(kinds), ::testing::Bool()),

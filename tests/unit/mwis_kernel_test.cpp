@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/mwis/exact/exact_solver.hpp"
+#include "random_cases.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {
@@ -44,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Effort, KernelTest,
 TEST_P(KernelTest, KeepsTheOptimumAndLiftsIt) {
   Random random(1);
   int decided = 0, vertices = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < hexpipe::testing::random_cases(1500); ++i) {
     const auto count = static_cast<std::int32_t>(random.below(24));
     const std::int64_t heaviest = i % 3 == 0 ? 3 : 1000;
     const ConflictGraph graph = i % 2 == 0 ? hexpipe::testing::random_graph(count, random.uniform(), heaviest, random)
@@ -68,7 +69,7 @@ TEST_P(KernelTest, KeepsTheOptimumAndLiftsIt) {
 TEST(ReducerTest, HalvesThatAreReducedApartKeepTheOptimumTogether) {
   Random random(3);
   int decided = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < hexpipe::testing::random_cases(1500); ++i) {
     const auto count = static_cast<std::int32_t>(2 + random.below(22)), middle = count / 2;
     const ConflictGraph graph = i % 2 == 0 ? hexpipe::testing::random_graph(count, 0.4 * random.uniform(), 20, random)
                                            : hexpipe::testing::random_clique_graph(count, count / 2, 20, random);
@@ -106,12 +107,12 @@ TEST(ReducerTest, HalvesThatAreReducedApartKeepTheOptimumTogether) {
     ASSERT_EQ(brute_force_weight(rest) + offset, brute_force_weight(graph)) << "graph " << i;
     decided += count - rest.vertex_count();
   }
-  EXPECT_GT(decided, 1500);
+  EXPECT_GT(decided, hexpipe::testing::random_cases(1500));
 }
 
 TEST_P(KernelTest, LiftsAnySetToAMaximalOneAndProjectsBack) {
   Random random(2);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < hexpipe::testing::random_cases(12); ++i) {
     const ConflictGraph graph = hexpipe::testing::random_graph(80, 0.1, 100, random);
     const Kernel kernel(graph, Deadline(), GetParam());
     for (const IndependentSet& set :

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "common/mwis/ground/solution_state.hpp"
+#include "random_cases.hpp"
 #include "random_graphs.hpp"
 
 namespace hexpipe {
@@ -35,11 +36,7 @@ std::int64_t best_of_both(const ConflictGraph& graph, const IndependentSet& a, c
 TEST(Recombination, FindsTheHeaviestOfBoth) {
   Random random(1);
   int better_than_both = 0;
-#ifdef __SANITIZE_ADDRESS__
-  constexpr int graphs = 400;  // they are slow then
-#else
-  constexpr int graphs = 2000;
-#endif
+  constexpr int graphs = hexpipe::testing::random_cases(2000);
   for (int i = 0; i < graphs; ++i) {
     const ConflictGraph graph = hexpipe::testing::random_graph(24, random.uniform(0.05, 0.3), 20, random);
     const IndependentSet a = random_set(graph, random), b = random_set(graph, random);

@@ -10,6 +10,7 @@
 #include "cell_shapes.hpp"
 #include "common/mesh/cell_measures.hpp"
 #include "common/mesh/quality.hpp"
+#include "random_cases.hpp"
 
 namespace hexpipe {
 namespace {
@@ -75,7 +76,7 @@ TEST(Validity, AgreesWithSampling) {
   Random random(1);
   int valid = 0, invalid = 0;
   for (const CellKind kind : all_kinds)
-    for (int n = 0; n < 300; ++n) {
+    for (int n = 0; n < hexpipe::testing::random_cases(300); ++n) {
       const auto corners = shaken_cell(kind, random.uniform(0.2, 0.6), random);
       const double least = least_sampled_jacobian(kind, corners, 16);
       if (least <= 0) {
@@ -86,22 +87,22 @@ TEST(Validity, AgreesWithSampling) {
         ++valid;
       }
     }
-  EXPECT_GT(valid, 200);
-  EXPECT_GT(invalid, 100);
+  EXPECT_GT(valid, hexpipe::testing::random_cases(200));
+  EXPECT_GT(invalid, hexpipe::testing::random_cases(100));
 }
 
 // Positive at all eight corners, negative between them.
 TEST(Validity, CornersAreNotEnough) {
   Random random(2);
   int found = 0;
-  for (int n = 0; n < 3000; ++n) {
+  for (int n = 0; n < hexpipe::testing::random_cases(3000); ++n) {
     const auto corners = shaken_cell(CellKind::hex, 0.5, random);
     if (least_corner_scaled_jacobian(CellKind::hex, corners) <= 0) continue;
     if (least_sampled_jacobian(CellKind::hex, corners, 8) > 0) continue;
     EXPECT_FALSE(is_valid(CellKind::hex, corners));
     ++found;
   }
-  EXPECT_GT(found, 5);
+  EXPECT_GT(found, hexpipe::testing::random_cases(5));
 }
 
 TEST(Validity, SeesTheLastBitOfACorner) {
