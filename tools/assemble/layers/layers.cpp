@@ -10,6 +10,7 @@
 #include "tools/assemble/layers/guide_surface.hpp"
 #include "tools/assemble/layers/line_plan.hpp"
 #include "tools/assemble/layers/open_quads.hpp"
+#include "tools/assemble/layers/run_outs.hpp"
 #include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe::assemble::layers {
@@ -95,7 +96,7 @@ class LayerBuilder {
 
  private:
   LayerCounts count(const Layered& layered) const;
-  std::vector<LineIndex> too_low(const Layered& layered) const;
+  std::vector<LineIndex> too_low(const Layered& layered, const LinePoints& places) const;
 
   const TetMesh& input_;
   const shape::InputSurface& surface_;
@@ -115,7 +116,7 @@ Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& 
   const shape::SlidingSurface sliding{surface_, input_.points, layered.origin, stays};
   const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   layered.drawn = draw_back(layered.mesh, {layered.walls, layered.plan, guides_, places, sliding, least_layer_quality});
-  if (layered.drawn.stuck.empty()) layered.drawn.stuck = too_low(layered);
+  if (layered.drawn.stuck.empty()) layered.drawn.stuck = too_low(layered, places);
   if (layered.drawn.stuck.empty()) {
     shape::untangle(layered.mesh, untangling_rounds_behind, &sliding);
     shape::smooth(layered.mesh, rounds_behind_layers, &sliding);
@@ -124,16 +125,14 @@ Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& 
 }
 
 // Lines on which some layer is lower than least_height.
-std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered) const {
+std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered, const LinePoints& places) const {
   std::vector<LineIndex> result;
   for (std::size_t i = 0; i < layered.walls.lines().size(); ++i) {
     const Line& line = layered.walls.lines()[i];
     if (line.tip == no_index) continue;
-    const int last = line.layers - 1;
-    const double lowest =
-        std::min(share_of_height(1, line.layers, rules_.growth), 1 - share_of_height(last, line.layers, rules_.growth));
     const double length = norm(layered.mesh.points[line.tip] - layered.mesh.points[line.foot]);
-    if (lowest * length < least_height * surface_.diagonal()) result.push_back(static_cast<LineIndex>(i));
+    if (places.lowest_share(line.layers) * length < least_height * surface_.diagonal())
+      result.push_back(static_cast<LineIndex>(i));
   }
   return result;
 }
@@ -141,6 +140,7 @@ std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered) const {
 LayerCounts LayerBuilder::count(const Layered& layered) const {
   LayerCounts counts;
   for (const WallSide& side : layered.walls.sides()) {
+    if (side.is_run_out) continue;
     const double area = area_of(layered.mesh, side);
     int long_lines = 0;
     double least = 1;
@@ -206,10 +206,10 @@ LayerCounts add_layers(MixedMesh& mesh, std::vector<Vertex>& origin, const TetMe
   for (int i = 0;; ++i) {
     MixedMesh opened = mesh;
     std::vector<Vertex> opened_origin = origin;
-    Walls walls(opened, rules.walls);
+    Walls walls = walls_with_run_outs(opened, rules.walls);
     for (int round = 0; round < most_openings; ++round) {
       if (!open_quads(opened, opened_origin, walls, lines_that_see(walls, bare))) break;
-      walls = Walls(opened, rules.walls);
+      walls = walls_with_run_outs(opened, rules.walls);
     }
     const LayerBuilder builder(input, surface, rules, std::move(walls));
     Layered layered = builder.attempt(opened, opened_origin, bare);
