@@ -43,7 +43,7 @@ constexpr double kept_quality = 0.95;
 // Cells over a sliver of the wall are slivers.
 constexpr double share_of_facet_quality = 0.3;
 // What cells that fan out need of what others do, beside the share of the lowest layer in the height.
-constexpr double share_of_fans = 0.5;
+constexpr double share_of_fans = 0.05;
 constexpr std::int64_t grain = 256;
 
 // The cells in flat arrays.

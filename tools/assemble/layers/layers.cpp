@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/mesh/quality.hpp"
 #include "common/run/progress.hpp"
@@ -16,8 +17,8 @@
 namespace hexpipe::assemble::layers {
 namespace {
 
-// Splitting anew without lines that are stuck; the last time without any line.
-constexpr int most_attempts = 16;
+// Splitting anew without lines that are stuck, then without those beside them, too; the last time without any line.
+constexpr int most_attempts = 16, attempts_without_neighbours = 6;
 // Quads that are cut let lines see other normals, so that others may have to be cut.
 constexpr int most_openings = 3;
 // The height of a line's layers, in edges of the wall, where no height is given.
@@ -219,7 +220,13 @@ LayerCounts add_layers(MixedMesh& mesh, std::vector<Vertex>& origin, const TetMe
       origin = std::move(layered.origin);
       return counts;
     }
-    for (const LineIndex line : layered.drawn.stuck) bare[layered.walls.lines()[line].foot] = 1;
+    const std::span<const Line> lines = std::as_const(layered.walls).lines();
+    std::vector<std::uint8_t> is_stuck(lines.size(), 0);
+    for (const LineIndex line : layered.drawn.stuck) is_stuck[line] = 1, bare[lines[line].foot] = 1;
+    if (i >= attempts_without_neighbours)
+      for (const LineEdge& edge : layered.walls.edges())
+        if (is_stuck[edge.lines[0]] != is_stuck[edge.lines[1]])
+          for (const LineIndex line : edge.lines) bare[lines[line].foot] = 1;
     if (i + 2 >= most_attempts) std::ranges::fill(bare, 1);
   }
 }
