@@ -160,3 +160,15 @@ ON_CYLINDER='sorted(abs(from_axis(q) - 2).max() < 7.5e-6 for q in of.values()) =
   assert_fails_with 1 "surface/shape.json: expected .* found no such object" fitcad damaged.tar -o x.vtu
   assert [ ! -e x.vtu ]
 }
+
+@test "layers at walls go onto the CAD with the rest, and stay valid" {
+  cad cylinder 'Cylinder(1) = {0, 0, 0, 0, 0, 5, 2};'
+  tessellate -q cylinder.step | tetmesh -q --size 0.8 | findhex | buildgraph | initsol --iterations 100 |
+    assemble -q --boundary-layers all=3 --first-height 0.05 --growth 1.2 --stats layers.json -o cylinder.tar
+  fitcad cylinder.tar -o fitted.tar --stats cylinder.json
+  holds 'layers["layers"]["share_of_area_with_layers"] == 1' layers.json
+  holds 'cylinder["distance"]["vertices"] < 1e-6 * cylinder["diagonal"] < cylinder["distance_before"]["vertices"]' cylinder.json
+  holds_for fitted.tar "$ON_CYLINDER"
+  fitcad cylinder.tar -o fitted.vtu
+  assert_conforming fitted.vtu
+}

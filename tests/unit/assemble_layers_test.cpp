@@ -225,51 +225,91 @@ TEST(Layers, FollowATube) {
   EXPECT_GT(result.statistics.layers->least_quality, 0.9);
 }
 
-// Only part of a flat side is a wall. Layers cannot end inside a plane: they have no height at its border, and all
-// cells there are valid.
-TEST(Layers, RunOutInAPlane) {
-  constexpr int n = 6, wall = 9;
+// A box of which a part of the low side in k is a wall of its own.
+constexpr std::int32_t part_of_side = 9;
+Lattice box_with_wall(int n, const std::function<bool(const Vec3&)>& is_wall) {
   Lattice box = tagged_lattice(n);
   for (std::size_t t = 0; t < box.mesh.triangles.size(); ++t) {
     Vec3 middle{};
     for (const Vertex v : box.mesh.triangles[t]) middle += box.mesh.points[v] * (1.0 / 3);
-    if (middle.z == 0 && middle.x < 3) box.mesh.triangle_tags[t] = wall;
+    if (middle.z == 0 && is_wall(middle)) box.mesh.triangle_tags[t] = part_of_side;
   }
+  return box;
+}
+
+double area_of_tag(const MixedMesh& mesh, std::int32_t tag) {
+  double area = 0;
+  const auto add = [&](const auto& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (block.tags[i] != tag) continue;
+      const auto& facet = block.cells[i];
+      for (std::size_t k = 2; k < facet.size(); ++k)
+        area += norm(cross(mesh.points[facet[k - 1]] - mesh.points[facet[0]],
+                           mesh.points[facet[k]] - mesh.points[facet[0]])) /
+                2;
+    }
+  };
+  add(mesh.triangles);
+  add(mesh.quads);
+  return area;
+}
+
+// Layers cannot end inside a plane at their full height. They run out over the first row of quads beyond the wall,
+// which stay what they are.
+TEST(Layers, RunOutBeyondAWallInAPlane) {
+  constexpr int n = 6;
+  const Lattice box = box_with_wall(n, [](const Vec3& at) { return at.x < 3; });
   const AssembleResult result = with_layers(box, options_with({{"9", 2}}, 0.1));
   EXPECT_NEAR(expect_sound(result.mesh), n * n * n, 1e-9);
   EXPECT_EQ(result.statistics.layers->area, 3 * n);
-  EXPECT_EQ(result.statistics.layers->area_with_layers, 2 * n);
-  EXPECT_EQ(result.statistics.layers->area_with_some, 3 * n);
+  EXPECT_EQ(result.statistics.layers->area_with_all, 3 * n);
+  EXPECT_EQ(result.mesh.hexes.size(), static_cast<std::size_t>(n * n * n + 2 * 3 * n));
   EXPECT_EQ(result.mesh.prisms.size(), static_cast<std::size_t>(2 * n));
+  EXPECT_NEAR(area_of_tag(result.mesh, part_of_side), 3 * n, 1e-9);
+  EXPECT_NEAR(area_of_tag(result.mesh, low_k), 3 * n, 1e-9);
 }
 
-// At the corner of such a wall a quad has one line with a length: it is cut, and the hex behind it is opened.
-TEST(Layers, RunOutAtACornerInAPlane) {
+// Beyond the corner of such a wall a quad has one line with a length: it is cut, and the hex behind it is opened.
+TEST(Layers, RunOutBeyondACornerInAPlane) {
   constexpr int n = 6;
-  Lattice box = tagged_lattice(n);
-  for (std::size_t t = 0; t < box.mesh.triangles.size(); ++t) {
-    Vec3 middle{};
-    for (const Vertex v : box.mesh.triangles[t]) middle += box.mesh.points[v] * (1.0 / 3);
-    if (middle.z == 0 && middle.x < 3 && middle.y < 3) box.mesh.triangle_tags[t] = 9;
-  }
+  const Lattice box = box_with_wall(n, [](const Vec3& at) { return at.x < 3 && at.y < 3; });
   const AssembleResult result = with_layers(box, options_with({{"9", 2}}, 0.1));
   EXPECT_NEAR(expect_sound(result.mesh), n * n * n, 1e-9);
   EXPECT_EQ(result.statistics.layers->area, 9);
-  EXPECT_EQ(result.statistics.layers->area_with_layers, 4);
-  EXPECT_EQ(result.statistics.layers->area_with_some, 8.5);
+  EXPECT_EQ(result.statistics.layers->area_with_all, 9);
   EXPECT_EQ(result.mesh.pyramids.size(), 5u);
   EXPECT_EQ(result.mesh.tets.size(), 4u);  // two of the hex, and one in each layer
 }
 
-// The walls end at the inner edge of an L. Beside it the part goes on to both sides, and no line can leave it.
-TEST(Layers, RunOutBeforeAnInnerEdge) {
+// Between two walls of one number of layers, a row of quads has layers from both sides; where the numbers differ, each
+// wall's layers run out within it.
+TEST(Layers, MeetOverARowBetweenTwoWalls) {
+  constexpr int n = 6, other = 10;
+  Lattice box = box_with_wall(n, [](const Vec3& at) { return at.x < 3; });
+  for (std::size_t t = 0; t < box.mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = box.mesh.triangles[t];
+    const Vec3 middle = (box.mesh.points[a] + box.mesh.points[b] + box.mesh.points[c]) * (1.0 / 3);
+    if (middle.z == 0 && middle.x > 4) box.mesh.triangle_tags[t] = other;
+  }
+  const AssembleResult same = with_layers(box, options_with({{"9", 2}, {"10", 2}}, 0.1));
+  EXPECT_NEAR(expect_sound(same.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(same.statistics.layers->area_with_all, 5 * n);
+  EXPECT_EQ(same.mesh.prisms.size(), 0u);
+  const AssembleResult different = with_layers(box, options_with({{"9", 2}, {"10", 3}}, 0.1));
+  EXPECT_NEAR(expect_sound(different.mesh), n * n * n, 1e-9);
+  EXPECT_EQ(different.statistics.layers->area_with_layers, 3 * n);
+  EXPECT_EQ(different.statistics.layers->area_with_some, 5 * n);
+}
+
+// The wall ends at the inner edge of an L, where the part goes on to both sides: its layers run out on the other side
+// of the edge.
+TEST(Layers, RunOutBehindAnInnerEdge) {
   constexpr int n = 4;
   const Lattice l = tagged_lattice(n, [](int i, int j, int) { return i < 2 || j < 2; });
   const AssembleResult result = with_layers(l, options_with({{"2", 2}}, 0.1));
   EXPECT_NEAR(expect_sound(result.mesh), 48, 1e-9);
   EXPECT_EQ(result.statistics.layers->area, 16);
-  EXPECT_EQ(result.statistics.layers->area_with_layers, 12);
-  EXPECT_EQ(result.statistics.layers->area_with_some, 16);
+  EXPECT_EQ(result.statistics.layers->area_with_layers, 16);
 }
 
 TEST(Layers, SitOnMixedCells) {

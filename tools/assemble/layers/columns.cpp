@@ -66,6 +66,10 @@ double share_of_height(int level, int layers, double growth) {
   return std::expm1(level * std::log(growth)) / std::expm1(layers * std::log(growth));
 }
 
+double LinePoints::lowest_share(int layers) const {
+  return std::min(share_of_height(1, layers, growth_), 1 - share_of_height(layers - 1, layers, growth_));
+}
+
 Vec3 LinePoints::at(std::span<const Vec3> points, const LinePoint& point) const {
   const Line& line = walls_.lines()[point.line];
   const Vec3& foot = points[line.foot];

@@ -44,6 +44,8 @@ class LinePoints {
       : walls_(walls), plan_(plan), guides_(guides), growth_(growth) {}
 
   Vec3 at(std::span<const Vec3> points, const LinePoint& point) const;
+  // That of the lowest of `layers` layers in the length of a line.
+  double lowest_share(int layers) const;
   // The corners of a cell; as many as it has.
   std::array<Vec3, 8> corners(std::span<const Vec3> points, const LayerCell& cell) const;
 

@@ -42,6 +42,8 @@ constexpr double share_slope = 0.25;
 constexpr double kept_quality = 0.95;
 // Cells over a sliver of the wall are slivers.
 constexpr double share_of_facet_quality = 0.3;
+// What cells that fan out need of what others do, beside the share of the lowest layer in the height.
+constexpr double share_of_fans = 0.05;
 constexpr std::int64_t grain = 256;
 
 // The cells in flat arrays.
@@ -190,11 +192,11 @@ void DrawBack::find_sides() {
     if (layer_cell(input_.walls, input_.walls.sides()[s], 0)) {
       long_sides_.push_back(static_cast<std::int32_t>(s));
       const WallSide& side = input_.walls.sides()[s];
-      // Cells that fan out from a line without length are as thin as the others are low, so that only validity counts.
+      // Cells that fan out from a line without length are as thin as the lowest layer is low.
       const bool fans_out = std::ranges::any_of(std::span(side.lines).first(side.size()),
                                                 [&](LineIndex line) { return lines()[line].tip == no_index; });
-      least_of_sides_.push_back(
-          fans_out ? 0 : std::min(input_.least_quality, share_of_facet_quality * facet_quality(mesh_, side)));
+      const double least = std::min(input_.least_quality, share_of_facet_quality * facet_quality(mesh_, side));
+      least_of_sides_.push_back(fans_out ? share_of_fans * input_.places.lowest_share(side.layers) * least : least);
     }
   sides_at_ = VertexItems(mesh_.points.size(), [&](auto&& visit) {
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(long_sides_.size()); ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/mesh/quality.hpp"
 #include "common/run/progress.hpp"
@@ -10,13 +11,14 @@
 #include "tools/assemble/layers/guide_surface.hpp"
 #include "tools/assemble/layers/line_plan.hpp"
 #include "tools/assemble/layers/open_quads.hpp"
+#include "tools/assemble/layers/run_outs.hpp"
 #include "tools/assemble/shape/smooth.hpp"
 
 namespace hexpipe::assemble::layers {
 namespace {
 
-// Splitting anew without lines that are stuck; the last time without any line.
-constexpr int most_attempts = 16;
+// Splitting anew without lines that are stuck, then without those beside them, too; the last time without any line.
+constexpr int most_attempts = 16, attempts_without_neighbours = 6;
 // Quads that are cut let lines see other normals, so that others may have to be cut.
 constexpr int most_openings = 3;
 // The height of a line's layers, in edges of the wall, where no height is given.
@@ -95,7 +97,7 @@ class LayerBuilder {
 
  private:
   LayerCounts count(const Layered& layered) const;
-  std::vector<LineIndex> too_low(const Layered& layered) const;
+  std::vector<LineIndex> too_low(const Layered& layered, const LinePoints& places) const;
 
   const TetMesh& input_;
   const shape::InputSurface& surface_;
@@ -115,7 +117,7 @@ Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& 
   const shape::SlidingSurface sliding{surface_, input_.points, layered.origin, stays};
   const LinePoints places(layered.walls, layered.plan, guides_, rules_.growth);
   layered.drawn = draw_back(layered.mesh, {layered.walls, layered.plan, guides_, places, sliding, least_layer_quality});
-  if (layered.drawn.stuck.empty()) layered.drawn.stuck = too_low(layered);
+  if (layered.drawn.stuck.empty()) layered.drawn.stuck = too_low(layered, places);
   if (layered.drawn.stuck.empty()) {
     shape::untangle(layered.mesh, untangling_rounds_behind, &sliding);
     shape::smooth(layered.mesh, rounds_behind_layers, &sliding);
@@ -124,16 +126,14 @@ Layered LayerBuilder::attempt(const MixedMesh& mesh, const std::vector<Vertex>& 
 }
 
 // Lines on which some layer is lower than least_height.
-std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered) const {
+std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered, const LinePoints& places) const {
   std::vector<LineIndex> result;
   for (std::size_t i = 0; i < layered.walls.lines().size(); ++i) {
     const Line& line = layered.walls.lines()[i];
     if (line.tip == no_index) continue;
-    const int last = line.layers - 1;
-    const double lowest =
-        std::min(share_of_height(1, line.layers, rules_.growth), 1 - share_of_height(last, line.layers, rules_.growth));
     const double length = norm(layered.mesh.points[line.tip] - layered.mesh.points[line.foot]);
-    if (lowest * length < least_height * surface_.diagonal()) result.push_back(static_cast<LineIndex>(i));
+    if (places.lowest_share(line.layers) * length < least_height * surface_.diagonal())
+      result.push_back(static_cast<LineIndex>(i));
   }
   return result;
 }
@@ -141,6 +141,7 @@ std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered) const {
 LayerCounts LayerBuilder::count(const Layered& layered) const {
   LayerCounts counts;
   for (const WallSide& side : layered.walls.sides()) {
+    if (side.is_run_out) continue;
     const double area = area_of(layered.mesh, side);
     int long_lines = 0;
     double least = 1;
@@ -206,10 +207,10 @@ LayerCounts add_layers(MixedMesh& mesh, std::vector<Vertex>& origin, const TetMe
   for (int i = 0;; ++i) {
     MixedMesh opened = mesh;
     std::vector<Vertex> opened_origin = origin;
-    Walls walls(opened, rules.walls);
+    Walls walls = walls_with_run_outs(opened, rules.walls);
     for (int round = 0; round < most_openings; ++round) {
       if (!open_quads(opened, opened_origin, walls, lines_that_see(walls, bare))) break;
-      walls = Walls(opened, rules.walls);
+      walls = walls_with_run_outs(opened, rules.walls);
     }
     const LayerBuilder builder(input, surface, rules, std::move(walls));
     Layered layered = builder.attempt(opened, opened_origin, bare);
@@ -219,7 +220,13 @@ LayerCounts add_layers(MixedMesh& mesh, std::vector<Vertex>& origin, const TetMe
       origin = std::move(layered.origin);
       return counts;
     }
-    for (const LineIndex line : layered.drawn.stuck) bare[layered.walls.lines()[line].foot] = 1;
+    const std::span<const Line> lines = std::as_const(layered.walls).lines();
+    std::vector<std::uint8_t> is_stuck(lines.size(), 0);
+    for (const LineIndex line : layered.drawn.stuck) is_stuck[line] = 1, bare[lines[line].foot] = 1;
+    if (i >= attempts_without_neighbours)
+      for (const LineEdge& edge : layered.walls.edges())
+        if (is_stuck[edge.lines[0]] != is_stuck[edge.lines[1]])
+          for (const LineIndex line : edge.lines) bare[lines[line].foot] = 1;
     if (i + 2 >= most_attempts) std::ranges::fill(bare, 1);
   }
 }

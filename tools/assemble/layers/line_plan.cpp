@@ -14,10 +14,6 @@
 namespace hexpipe::assemble::layers {
 namespace {
 
-// The sine of the least angle between a line and the facets at its foot. A line that sees less does not grow.
-constexpr double least_sight = 0.08;
-// Lines between two walls are longer than the height, by at most 1/0.4: below this angle heights shrink.
-constexpr double full_sight = 0.4;
 // A line whose normals all lie this near to it stands on a smooth wall.
 constexpr double smooth_sight = 0.9;
 // The most of the way to the next boundary that a line takes: where layers come from there, too, and elsewhere.
@@ -40,34 +36,10 @@ VertexItems neighbours_of(const Walls& walls) {
   });
 }
 
-// The direction with the greatest least angle to all facets of the wall, and the sine of that angle.
-struct Sight {
-  Vec3 direction{};
-  double sine = 0;
-};
-
 double least_sine(std::span<const Vec3> normals, const Vec3& direction) {
   double least = 1;
   for (const Vec3& normal : normals) least = std::min(least, dot(normal, direction));
   return least;
-}
-
-Sight sight_of(const Line& line, const GuideFreedom& freedom) {
-  std::vector<Vec3> normals = line.normals;
-  if (normals.empty() || freedom.kind == GuideFreedom::Kind::none) return {};
-  Vec3 direction;
-  if (freedom.kind == GuideFreedom::Kind::curve) {
-    direction = freedom.axis;
-    if (least_sine(normals, -direction) > least_sine(normals, direction)) direction = -direction;
-  } else {
-    if (freedom.kind == GuideFreedom::Kind::face)
-      for (Vec3& normal : normals) normal -= freedom.axis * dot(freedom.axis, normal);
-    direction = unit(shape::shortest_in_hull(normals));
-  }
-  // Where the part turns away behind the edge of a wall, the face beside it does not go on into the part.
-  for (const Vec3& inwards : freedom.inwards)
-    if (!(dot(inwards, direction) > 0)) return {};
-  return {direction, least_sine(line.normals, direction)};
 }
 
 // The tagged facets as triangles, to see how far it is to the next one.
@@ -75,7 +47,8 @@ class Room {
  public:
   Room(const MixedMesh& mesh, const Walls& walls) : mesh_(mesh) {
     std::vector<std::int32_t> wall_tags;
-    for (const WallSide& side : walls.sides()) wall_tags.push_back(side.tag);
+    for (const WallSide& side : walls.sides())
+      if (!side.is_run_out) wall_tags.push_back(side.tag);
     std::ranges::sort(wall_tags);
     wall_tags.erase(std::ranges::unique(wall_tags).begin(), wall_tags.end());
     const auto add = [&](const Triangle& triangle, std::int32_t tag) {
@@ -181,7 +154,7 @@ void Planner::look() {
   std::vector<double> worth;
   for (const Line& line : walls_.lines()) {
     freedoms_.push_back(freedom_of(line.guides));
-    sights_.push_back(sight_of(line, freedoms_.back()));
+    sights_.push_back(sight_of(line.normals, freedoms_.back()));
     worth.push_back(sights_.back().sine);
   }
   grows_ = lines_that_see(walls_, bare_);
@@ -273,6 +246,24 @@ void Planner::keep_edges() {
 
 }  // namespace
 
+Sight sight_of(std::span<const Vec3> normals, const GuideFreedom& freedom) {
+  if (normals.empty() || freedom.kind == GuideFreedom::Kind::none) return {};
+  Vec3 direction;
+  if (freedom.kind == GuideFreedom::Kind::curve) {
+    direction = freedom.axis;
+    if (least_sine(normals, -direction) > least_sine(normals, direction)) direction = -direction;
+  } else {
+    std::vector<Vec3> within(normals.begin(), normals.end());
+    if (freedom.kind == GuideFreedom::Kind::face)
+      for (Vec3& normal : within) normal -= freedom.axis * dot(freedom.axis, normal);
+    direction = unit(shape::shortest_in_hull(within));
+  }
+  // Where the part turns away behind the edge of a wall, the face beside it does not go on into the part.
+  for (const Vec3& inwards : freedom.inwards)
+    if (!(dot(inwards, direction) > 0)) return {};
+  return {direction, least_sine(normals, direction)};
+}
+
 void close_over_quads(const Walls& walls, std::span<const double> worth, std::vector<std::uint8_t>& grows) {
   for (bool changed = true; changed;) {
     changed = false;
@@ -302,7 +293,8 @@ void close_over_quads(const Walls& walls, std::span<const double> worth, std::ve
 std::vector<std::uint8_t> lines_that_see(const Walls& walls, std::span<const std::uint8_t> bare) {
   std::vector<std::uint8_t> result;
   for (const Line& line : walls.lines())
-    result.push_back(bare[line.foot] == 0 && sight_of(line, freedom_of(line.guides)).sine >= least_sight);
+    result.push_back(bare[line.foot] == 0 && line.is_on_wall &&
+                     sight_of(line.normals, freedom_of(line.guides)).sine >= least_sight);
   // Where walls touch along an edge, columns on both sides would share their sides.
   for (const LineEdge& edge : walls.edges())
     if (edge.sides > 2 || (edge.sides == 1 && !edge.is_tagged))

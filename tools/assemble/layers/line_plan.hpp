@@ -18,6 +18,19 @@ struct LinePlan {
   std::vector<GuideFreedom> freedoms;  // from the guides
 };
 
+// The direction with the greatest least angle to all facets of the wall, and the sine of that angle; 0 where there is
+// none.
+struct Sight {
+  Vec3 direction{};
+  double sine = 0;
+};
+Sight sight_of(std::span<const Vec3> normals, const GuideFreedom& freedom);
+
+// The sine of the least angle between a line and the facets at its foot. A line that sees less does not grow.
+inline constexpr double least_sight = 0.08;
+// Lines between two walls are longer than the height, by at most 1/0.4: where they see less, heights shrink.
+inline constexpr double full_sight = 0.4;
+
 // By line: whether it sees its wall, so that it could grow. `bare`: by vertex, 1 where lines have no length.
 std::vector<std::uint8_t> lines_that_see(const Walls& walls, std::span<const std::uint8_t> bare);
 

@@ -66,15 +66,18 @@ struct NearCell {
 
 // A facet of a cell that has a vertex on a wall.
 struct NearFacet {
-  std::array<Vertex, 4> form;
+  FacetVertices form;
   std::int32_t cell;  // among those near
   Quad corners;       // outwards
 };
 
 struct TaggedFacet {
-  std::array<Vertex, 4> form;
+  FacetVertices form;
   std::int32_t block, index, tag;
   const WallGroup* group;  // nullptr: no wall
+  int layers;              // 0: neither a wall nor a facet over which layers run out
+
+  bool has_sides() const { return layers > 0; }
 };
 
 Vec3 corner_normal(const MixedMesh& mesh, const Quad& facet, int size, int corner) {
@@ -89,7 +92,8 @@ Vec3 corner_bisector(const MixedMesh& mesh, const Quad& facet, int size, int cor
 
 class WallFinder {
  public:
-  WallFinder(const MixedMesh& mesh, std::span<const WallGroup> groups) : mesh_(mesh), groups_(groups) {
+  WallFinder(const MixedMesh& mesh, std::span<const WallGroup> groups, std::span<const RunOut> run_outs)
+      : mesh_(mesh), groups_(groups), run_outs_(run_outs) {
     find_tagged_facets();
     find_cells();
     find_facets();
@@ -107,9 +111,9 @@ class WallFinder {
       for (std::size_t i = 0; i < cell.corners.size(); ++i)
         if (const LineIndex line = line_at(cell.wedges[i]); line != no_index)
           use(cell.block, cell.index, cell.corners[i].second, line);
-    for (const auto& [facet, cell, is_outer] : guides_)
+    for (const auto& [facet, of_cell, is_outer] : guides_)
       for (int i = 0; i < size_of(facet->form); ++i)
-        if (const LineIndex line = line_of(cell, vertex_of(*facet, i)); line != no_index)
+        if (const LineIndex line = line_of(of_cell->cell, vertex_of(*facet, i)); line != no_index)
           use(facet->block, facet->index, i, line);
   }
 
@@ -117,7 +121,7 @@ class WallFinder {
   void find_edges();
 
  private:
-  static int size_of(const std::array<Vertex, 4>& form) { return form[3] == no_index ? 3 : 4; }
+  static int size_of(const FacetVertices& form) { return form[3] == no_index ? 3 : 4; }
   Vertex vertex_of(const TaggedFacet& facet, int i) const {
     return facet.block == Block::quads ? mesh_.quads.cells[facet.index][i] : mesh_.triangles.cells[facet.index][i];
   }
@@ -126,7 +130,7 @@ class WallFinder {
   LineIndex line_of(std::int32_t cell, Vertex v) {
     return is_on_wall(v) ? line_at(cells_[cell].wedge_at(v)) : no_index;
   }
-  const TaggedFacet* find_tagged(const std::array<Vertex, 4>& form) const {
+  const TaggedFacet* find_tagged(const FacetVertices& form) const {
     const auto found = std::ranges::lower_bound(tagged_, form, {}, &TaggedFacet::form);
     return found != tagged_.end() && found->form == form ? &*found : nullptr;
   }
@@ -138,6 +142,7 @@ class WallFinder {
       visit(std::span(facets_).subspan(i, next - i), find_tagged(facets_[i].form));
     }
   }
+  int layers_beyond_rim(const FacetVertices& form) const;
   void find_tagged_facets();
   void find_cells();
   void find_facets();
@@ -146,6 +151,7 @@ class WallFinder {
 
   const MixedMesh& mesh_;
   std::span<const WallGroup> groups_;
+  std::span<const RunOut> run_outs_;
   std::vector<std::uint8_t> is_on_wall_;
   std::vector<TaggedFacet> tagged_;  // by form
   std::vector<NearCell> cells_;
@@ -154,11 +160,16 @@ class WallFinder {
   std::vector<LineIndex> line_of_wedge_;
   struct GuideFacet {
     const TaggedFacet* facet;
-    std::int32_t cell;  // one that has it
-    bool is_outer;      // the only one
+    const NearFacet* of_cell;  // as a cell has it
+    bool is_outer;             // the only one
   };
-  std::vector<GuideFacet> guides_;  // tagged facets that are no walls
+  std::vector<GuideFacet> guides_;  // tagged facets that have no sides
 };
+
+int WallFinder::layers_beyond_rim(const FacetVertices& form) const {
+  const auto found = std::ranges::lower_bound(run_outs_, form, {}, &RunOut::facet);
+  return found != run_outs_.end() && found->facet == form ? found->layers : 0;
+}
 
 void WallFinder::find_tagged_facets() {
   is_on_wall_.assign(mesh_.points.size(), 0);
@@ -166,9 +177,10 @@ void WallFinder::find_tagged_facets() {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const auto group = std::ranges::lower_bound(groups_, block.tags[i], {}, &WallGroup::tag);
       const WallGroup* wall = group == groups_.end() || group->tag != block.tags[i] ? nullptr : &*group;
-      tagged_.push_back(
-          {FacetForm::of(block.cells[i]).vertices, number, static_cast<std::int32_t>(i), block.tags[i], wall});
-      if (wall == nullptr) continue;
+      const FacetVertices form = FacetForm::of(block.cells[i]).vertices;
+      const int layers = wall != nullptr ? wall->layers : layers_beyond_rim(form);
+      tagged_.push_back({form, number, static_cast<std::int32_t>(i), block.tags[i], wall, layers});
+      if (layers == 0) continue;
       for (const Vertex v : block.cells[i]) is_on_wall_[v] = 1;
     }
   });
@@ -217,8 +229,8 @@ void WallFinder::find_facets() {
 
 void WallFinder::join_wedges() {
   for_each_form([&](std::span<const NearFacet> both, const TaggedFacet* tagged) {
-    if (tagged != nullptr && tagged->group == nullptr) guides_.push_back({tagged, both[0].cell, both.size() == 1});
-    if (both.size() < 2 || (tagged != nullptr && tagged->group != nullptr)) return;
+    if (tagged != nullptr && !tagged->has_sides()) guides_.push_back({tagged, &both[0], both.size() == 1});
+    if (both.size() < 2 || (tagged != nullptr && tagged->has_sides())) return;
     for (const Vertex v : both[0].corners)
       if (v != no_index && is_on_wall(v))
         sets_.join(cells_[both[0].cell].wedge_at(v), cells_[both[1].cell].wedge_at(v));
@@ -227,7 +239,9 @@ void WallFinder::join_wedges() {
 
 void WallFinder::add_side(const NearFacet& facet, const TaggedFacet& tagged) {
   const NearCell& cell = cells_[facet.cell];
-  WallSide side{facet.corners, {no_index, no_index, no_index, no_index}, tagged.tag, cell.region, tagged.group->layers};
+  WallSide side{facet.corners, {no_index, no_index, no_index, no_index},
+                tagged.tag,    cell.region,
+                tagged.layers, tagged.group == nullptr};
   for (int i = 0; i < side.size(); ++i) {
     LineIndex& line = line_of_wedge_[sets_.of(cell.wedge_at(side.corners[i]))];
     if (line == no_index) {
@@ -236,6 +250,7 @@ void WallFinder::add_side(const NearFacet& facet, const TaggedFacet& tagged) {
     }
     side.lines[i] = line;
     lines[line].layers = std::max(lines[line].layers, side.layers);
+    lines[line].is_on_wall = lines[line].is_on_wall || !side.is_run_out;
     // Quads may be warped: the line has to see them at all corners.
     for (int k = 0; k < side.size(); ++k)
       lines[line].normals.push_back(-corner_normal(mesh_, side.corners, side.size(), k));
@@ -245,17 +260,18 @@ void WallFinder::add_side(const NearFacet& facet, const TaggedFacet& tagged) {
 
 void WallFinder::find_sides() {
   const auto has_layers = [&](const NearFacet& facet, const TaggedFacet& tagged) {
+    if (tagged.group == nullptr) return true;
     const auto& regions = tagged.group->regions;
     return regions.empty() || std::ranges::find(regions, cells_[facet.cell].region) != regions.end();
   };
   for_each_form([&](std::span<const NearFacet> both, const TaggedFacet* tagged) {
-    if (tagged == nullptr || tagged->group == nullptr) return;
+    if (tagged == nullptr || !tagged->has_sides()) return;
     for (const NearFacet& facet : both)
       if (has_layers(facet, *tagged)) add_side(facet, *tagged);
   });
   // A line cannot leave the bare side of a wall.
   for_each_form([&](std::span<const NearFacet> both, const TaggedFacet* tagged) {
-    if (tagged == nullptr || tagged->group == nullptr) return;
+    if (tagged == nullptr || !tagged->has_sides()) return;
     for (const NearFacet& facet : both) {
       if (has_layers(facet, *tagged)) continue;
       const int size = facet.corners[3] == no_index ? 3 : 4;
@@ -275,15 +291,15 @@ void WallFinder::find_edges() {
   };
   for (const WallSide& side : sides)
     for (int i = 0; i < side.size(); ++i) ++edge_at(side.lines[i], side.lines[(i + 1) % side.size()]).sides;
-  for (const auto& [facet, cell, is_outer] : guides_) {
+  for (const auto& [facet, of_cell, is_outer] : guides_) {
     const int size = size_of(facet->form);
-    Quad corners{no_index, no_index, no_index, no_index};
-    for (int i = 0; i < size; ++i) corners[i] = vertex_of(*facet, i);
+    const Quad& corners = of_cell->corners;
+    const auto line_at_corner = [&](int i) { return line_of(of_cell->cell, corners[i % size]); };
     for (int i = 0; i < size; ++i) {
-      const LineIndex line = line_of(cell, corners[i]), next = line_of(cell, corners[(i + 1) % size]);
+      const LineIndex line = line_at_corner(i), next = line_at_corner(i + 1);
       if (line == no_index) continue;
-      lines[line].guides.push_back(
-          {corner_normal(mesh_, corners, size, i), corner_bisector(mesh_, corners, size, i), facet->tag});
+      lines[line].guides.push_back({corner_normal(mesh_, corners, size, i), corner_bisector(mesh_, corners, size, i),
+                                    facet->tag, facet->form, is_outer});
       if (next == no_index) continue;
       const auto edge = found.find({std::min(line, next), std::max(line, next)});
       // Where the walls end at the boundary, interfaces that end there, too, do not count.
@@ -298,8 +314,8 @@ void WallFinder::find_edges() {
 
 }  // namespace
 
-Walls::Walls(const MixedMesh& mesh, std::span<const WallGroup> groups) {
-  WallFinder finder(mesh, groups);
+Walls::Walls(const MixedMesh& mesh, std::span<const WallGroup> groups, std::span<const RunOut> run_outs) {
+  WallFinder finder(mesh, groups, run_outs);
   finder.find_sides();
   finder.find_edges();
   finder.for_each_use([&](std::int32_t block, std::int32_t cell, std::int32_t corner, LineIndex line) {

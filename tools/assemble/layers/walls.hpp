@@ -19,21 +19,34 @@ struct WallGroup {
 
 using LineIndex = std::int32_t;
 
-// A facet of a wall as one of its cells sees it. A triangle has no_index as its last corner.
+// The vertices of a facet, ascending; a triangle ends with no_index.
+using FacetVertices = std::array<Vertex, 4>;
+
+// A facet of the boundary beyond the rim of a wall, over which its layers run out: see run_outs.hpp.
+struct RunOut {
+  FacetVertices facet;
+  int layers;  // those of the wall
+};
+
+// A facet of a wall, or one over which layers run out, as one of its cells sees it. A triangle has no_index as its last
+// corner.
 struct WallSide {
   Quad corners;  // counter-clockwise as seen from outside the cell
   std::array<LineIndex, 4> lines;
   std::int32_t tag, region;
   int layers;
+  bool is_run_out;
 
   int size() const { return corners[3] == no_index ? 3 : 4; }
 };
 
 // A tagged facet that is no wall, as one of its corners sees it. Lines stay on such facets.
 struct Guide {
-  Vec3 normal;   // unit; either way
+  Vec3 normal;   // unit, out of one of its cells
   Vec3 inwards;  // from the corner between its two edges
   std::int32_t tag;
+  FacetVertices facet{};
+  bool is_outer = true;  // on the boundary
 };
 
 // A line begins at a vertex of a wall and ends at its tip, a vertex of the inner mesh. A vertex has one line for each
@@ -42,6 +55,7 @@ struct Line {
   Vertex foot = no_index;
   Vertex tip = no_index;  // no_index: this line has no length, and the wedge keeps the foot
   int layers = 0;
+  bool is_on_wall = false;    // not only where layers run out
   std::vector<Vec3> normals;  // of the wall at the foot, unit, inwards
   std::vector<Guide> guides;
 };
@@ -57,8 +71,8 @@ struct LineEdge {
 
 class Walls {
  public:
-  // Finds all facets of the groups in the mesh. Each tag has one group; they are ascending.
-  Walls(const MixedMesh& mesh, std::span<const WallGroup> groups);
+  // Finds all facets of the groups in the mesh. Each tag has one group; they and the run-outs are ascending.
+  Walls(const MixedMesh& mesh, std::span<const WallGroup> groups, std::span<const RunOut> run_outs = {});
 
   std::span<const WallSide> sides() const { return sides_; }
   std::span<Line> lines() { return lines_; }
