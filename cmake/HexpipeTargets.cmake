@@ -44,18 +44,13 @@ if(HEXPIPE_SANITIZE AND NOT HEXPIPE_FUZZ)
 endif()
 
 # hexpipe_library(NAME SOURCES... [LINK LIBS...])
+# With HEXPIPE_UNITY, files of one namespace share their anonymous namespaces: names there differ within a room.
 function(hexpipe_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${arg_SOURCES})
   target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PUBLIC hexpipe_flags ${arg_LINK})
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${HEXPIPE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
-endfunction()
-
-# hexpipe_not_in_unity(SOURCES...): what has names of its own, in its anonymous namespace, that another file of the library
-# has too. With HEXPIPE_UNITY they are compiled alone; a file that clashes is to be added.
-function(hexpipe_not_in_unity)
-  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # hexpipe_copyright(COMPONENT): the file that Debian expects in each package, made of LICENSE.

@@ -116,6 +116,13 @@ assert_floors() {
   done
 }
 
+@test "no file leads back to itself by its includes" {
+  # A header and its .cpp count as one. tsort says where they have no order.
+  run bash -c 'sed -E "s/\.[ch]pp//g; s/:/ /" | awk "\$1 != \$2" | tsort >/dev/null' \
+    < <(includes_of common formats tools | grep -E ':(common|formats|tools)/')
+  assert_output ""
+}
+
 @test "rooms stand on floors: mwis, formats, tetmesh, assemble" {
   assert_floors common/mwis ground bounds reduce exact exact/historical local_search .
   assert_floors formats streams surfaces meshes meshes/libraries choice pipeline points

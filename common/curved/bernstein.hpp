@@ -3,7 +3,7 @@
 // the polynomial, and coefficients at corners are its values there.
 //
 // A domain is a product of simplices: a cube of three segments, a prism of a triangle and a segment, a tet of itself
-// alone. A term of the basis is told by the exponents of the barycentric coordinates of all simplices.
+// alone. A term of the basis is named by the exponents of the barycentric coordinates of all simplices.
 
 #include <array>
 #include <cstdint>

@@ -8,15 +8,15 @@
 #include <span>
 #include <vector>
 
-#include "common/mesh/tet_mesh.hpp"
+#include "common/mesh/vec3.hpp"
 #include "common/run/error.hpp"
 
 namespace hexpipe {
 
-// Throws DataError naming `source` when a coordinate is too large or NaN, or when there are more points than a Vertex
+// Throws DataError naming `source` when a coordinate is too large or NaN, or when there are more points than 32 bits
 // can number.
 inline void check_points(std::span<const Vec3> points, const char* source) {
-  if (points.size() > static_cast<std::size_t>(std::numeric_limits<Vertex>::max()))
+  if (points.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw DataError::at(source, "expected fewer than 2^31 points, found {}", points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!is_place(points[i]))
@@ -25,12 +25,12 @@ inline void check_points(std::span<const Vec3> points, const char* source) {
 }
 
 // Throws DataError naming `source` when a cell names a missing vertex, or one vertex twice.
-template <std::size_t Corners>
-void check_corners(const std::vector<std::array<Vertex, Corners>>& cells, std::size_t point_count, const char* name,
+template <class Index, std::size_t Corners>
+void check_corners(const std::vector<std::array<Index, Corners>>& cells, std::size_t point_count, const char* name,
                    const char* source) {
   for (std::size_t i = 0; i < cells.size(); ++i)
     for (std::size_t k = 0; k < Corners; ++k) {
-      const Vertex v = cells[i][k];
+      const Index v = cells[i][k];
       if (v < 0 || static_cast<std::size_t>(v) >= point_count)
         throw DataError::at(source, "{}[{}]: expected vertices from 0 to below {}, found {}", name, i, point_count, v);
       for (std::size_t j = 0; j < k; ++j)
@@ -40,8 +40,8 @@ void check_corners(const std::vector<std::array<Vertex, Corners>>& cells, std::s
 }
 
 // The same check; it also throws when there are not as many tags as cells.
-template <std::size_t Corners>
-void check_cells(const std::vector<std::array<Vertex, Corners>>& cells, const std::vector<std::int32_t>& tags,
+template <class Index, std::size_t Corners>
+void check_cells(const std::vector<std::array<Index, Corners>>& cells, const std::vector<std::int32_t>& tags,
                  std::size_t point_count, const char* name, const char* source) {
   if (tags.size() != cells.size())
     throw DataError::at(source, "expected a tag for each of {} {}, found {}", cells.size(), name, tags.size());

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "common/run/pipe_failure.hpp"
-#include "common/run/phases.hpp"
 #include "common/run/removed_files.hpp"
 
 namespace hexpipe {

@@ -72,6 +72,9 @@ class WaitForReader : WaitForOther {
   WaitForReader();
 };
 
+// How long this process has waited so, for input and for room.
+double seconds_waited();
+
 // Makes SIGINT, SIGTERM and SIGHUP remove the registered files before they end the process. Ignores SIGPIPE, so that a
 // closed pipe is an error of write(2).
 void install_signal_handlers();

@@ -9,9 +9,6 @@
 
 namespace hexpipe {
 
-// The seconds that this process has waited for input and for room in pipes.
-double seconds_waited();
-
 // The first phase begins with construction.
 class Phases {
  public:

@@ -58,7 +58,7 @@ std::vector<std::string> given_values(const CLI::Option& option) {
 nlohmann::ordered_json options_for_history(CLI::App& app) {
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
   for (CLI::Option* const option : app.get_options({})) {
-    if (option->get_lnames().empty() || is_outside_history(*option)) continue;
+    if (option->get_lnames().empty() || options_outside_history().contains(option)) continue;
     // CLI11's join is not used: a stream without memory cuts its text off and says nothing.
     const std::string value =
         option->count() > 0 ? fmt::format("{}", fmt::join(given_values(*option), ",")) : default_value(*option);
@@ -288,6 +288,7 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
 
   RunContext context;
   context.info = info;
+  options_outside_history().clear();
   CLI::App app(info.summary, info.name);
   app.formatter(std::make_shared<HelpFormatter>());
   outside_history(app.get_help_ptr())->group(group::run);

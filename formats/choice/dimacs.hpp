@@ -3,7 +3,7 @@
 // WEIGHT` and `e U V` lines. formats/README.md shows one.
 
 #include "common/graph/conflict_graph.hpp"
-#include "formats/choice/graph_reading.hpp"
+#include "formats/choice/graph_options.hpp"
 #include "formats/streams/input.hpp"
 
 namespace hexpipe::formats {

@@ -2,7 +2,7 @@
 // Edge lists, as SNAP and KONECT have them: a line `u v` for each edge. formats/README.md shows one.
 
 #include "common/graph/conflict_graph.hpp"
-#include "formats/choice/graph_reading.hpp"
+#include "formats/choice/graph_options.hpp"
 #include "formats/streams/input.hpp"
 
 namespace hexpipe::formats {

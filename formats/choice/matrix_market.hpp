@@ -2,7 +2,7 @@
 // MatrixMarket files of sparse square matrices, whose entries off the diagonal are edges. formats/README.md shows one.
 
 #include "common/graph/conflict_graph.hpp"
-#include "formats/choice/graph_reading.hpp"
+#include "formats/choice/graph_options.hpp"
 #include "formats/streams/input.hpp"
 
 namespace hexpipe::formats {

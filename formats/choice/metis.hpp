@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/graph/conflict_graph.hpp"
-#include "formats/choice/graph_reading.hpp"
+#include "formats/choice/graph_options.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/output.hpp"
 

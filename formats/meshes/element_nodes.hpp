@@ -14,7 +14,7 @@
 
 namespace hexpipe::formats {
 
-// The nodes of each kind of element as a format lists them: a node is told by the corners that it lies between, * is
+// The nodes of each kind of element as a format lists them: a node is named by the corners that it lies between, * is
 // the middle of the element. What a format lacks is left out. An element of first order has the single corners alone,
 // and one without nodes on quads has the corners and the edges.
 struct NodeLists {

@@ -85,10 +85,7 @@ class MeditReader {
       scanner_.fail_expected("fewer than 2^31 vertices", std::to_string(count));
     mesh_.points.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const auto x = scanner_.number<double>("a coordinate");
-      const auto y = scanner_.number<double>("a coordinate");
-      const auto z = scanner_.number<double>("a coordinate");
-      mesh_.points.push_back({x, y, z});
+      mesh_.points.push_back(scanner_.point());
       scanner_.number<std::int64_t>("the reference of a vertex");
     }
     vertex_range_ = fmt::format("a vertex from 1 to {}", count);

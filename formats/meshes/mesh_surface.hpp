@@ -5,7 +5,8 @@
 #include <string_view>
 
 #include "formats/streams/group_names.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/streams/input.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::formats {
 

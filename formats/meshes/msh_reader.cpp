@@ -167,8 +167,8 @@ class MshReader {
     wholes_[{dimension, entity}] = {whole_dimension, whole};
   }
 
-  // The group and the entity of elements of `entity`; nothing for facets between partitions, which the mesh had not
-  // before it was cut.
+  // The group and the entity of elements of `entity`; nothing for facets between partitions, which the mesh did not
+  // have before it was cut.
   std::optional<MshElementNumbers> numbers_of(int dimension, std::int32_t entity) const {
     const auto group_of = [&](std::int32_t number) {
       const auto found = groups_.find({dimension, number});

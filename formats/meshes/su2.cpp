@@ -99,10 +99,7 @@ class Su2Reader {
     scanner_.rest_of_line();  // may have a second number
     mesh_.points.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const auto x = scanner_.number<double>("a coordinate");
-      const auto y = scanner_.number<double>("a coordinate");
-      const auto z = scanner_.number<double>("a coordinate");
-      mesh_.points.push_back({x, y, z});
+      mesh_.points.push_back(scanner_.point());
       if (!scanner_.at_line_end()) scanner_.number<std::int64_t>("the number of a point");
     }
   }

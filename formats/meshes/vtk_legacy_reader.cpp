@@ -118,12 +118,7 @@ class VtkLegacyReader {
       scalar_type(type);
       expect_room_for(numbers);
       grid_.points.reserve(count);
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto x = scanner_.number<double>("a coordinate");
-        const auto y = scanner_.number<double>("a coordinate");
-        const auto z = scanner_.number<double>("a coordinate");
-        grid_.points.push_back({x, y, z});
-      }
+      for (std::size_t i = 0; i < count; ++i) grid_.points.push_back(scanner_.point());
     }
     has_points_ = true;
   }

@@ -23,6 +23,7 @@
 #include "formats/pipeline/members.hpp"
 #include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/surface_bundle.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe::pipeline {
 namespace {

@@ -10,7 +10,8 @@
 #include "common/run/run_context.hpp"
 #include "formats/pipeline/stage_data.hpp"
 #include "formats/streams/group_names.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/streams/input.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::pipeline {
 

@@ -18,7 +18,7 @@
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/pipeline/exact_shape.hpp"
 #include "formats/streams/group_names.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::pipeline {
 

@@ -5,7 +5,8 @@
 #include <string_view>
 
 #include "formats/pipeline/bundle.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/streams/input.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::pipeline {
 

@@ -14,6 +14,7 @@
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/surface_bundle.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe::pipeline {
 namespace {

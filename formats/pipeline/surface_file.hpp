@@ -9,7 +9,7 @@
 
 #include "formats/pipeline/exact_shape.hpp"
 #include "formats/streams/output.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::pipeline {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "formats/streams/input.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::formats {
 

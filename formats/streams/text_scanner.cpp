@@ -115,6 +115,13 @@ std::size_t TextScanner::count(std::string_view what, std::size_t bytes_each) {
   return announced;
 }
 
+Vec3 TextScanner::point() {
+  const auto x = number<double>("a coordinate");
+  const auto y = number<double>("a coordinate");
+  const auto z = number<double>("a coordinate");
+  return {x, y, z};
+}
+
 void TextScanner::fail_expected(std::string_view expected, std::string_view found) const {
   fail(fmt::format("expected {}, found {}", expected, quote_found(found)));
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "common/mesh/vec3.hpp"
 #include "common/run/error.hpp"
 
 namespace hexpipe::formats {
@@ -38,6 +39,8 @@ class TextScanner {
   // infinities and NaN are errors.
   template <class T>
   T number(std::string_view what);
+  // The next three words as coordinates, which may stand on several lines.
+  Vec3 point();
   // The next word must be this one, ASCII case ignored.
   void expect(std::string_view word);
   // The rest of the line, without its end and a comment; goes to the next line.

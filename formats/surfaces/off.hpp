@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::formats {
 

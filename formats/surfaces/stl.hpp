@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::formats {
 
@@ -21,7 +21,7 @@ bool is_cut_binary_stl(std::string_view bytes);
 // and there may be a blank in those that begin with `end`.
 SurfaceSoup read_ascii_stl(std::string_view text, const std::string& name);
 
-// The facets' attributes become the tags. A warning tells of bytes behind the facets, or of a count that says 0. Throws
+// The facets' attributes become the tags. A warning reports bytes behind the facets, or a count of 0. Throws
 // DataError when the file is too short, more facets follow, or a coordinate is not finite.
 SurfaceSoup read_binary_stl(std::string_view bytes, const std::string& name);
 

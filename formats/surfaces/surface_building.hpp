@@ -11,7 +11,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 #include "formats/streams/text_scanner.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::formats {
 

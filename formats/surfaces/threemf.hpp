@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::formats {
 

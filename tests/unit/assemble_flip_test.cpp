@@ -13,6 +13,8 @@ using namespace assemble::conform;
 using namespace assemble::hybrid;
 namespace {
 
+using testing::tag_boundary;
+
 double quality(const HybridMesh& mesh, std::int32_t t) {
   const auto at = corner_points(mesh.points, mesh.tet(t));
   return std::sqrt(2.0) * least_corner_scaled_jacobian(CellKind::tet, std::span<const Vec3>(at).first(4));
@@ -45,10 +47,6 @@ TetMesh ring(int n, double half_length) {
 
 HybridMesh hybrid_of(const TetMesh& mesh) {
   return HybridMesh(mesh, std::vector<bool>(mesh.tets.size()));
-}
-
-void tag_boundary(TetMesh& mesh) {
-  add_missing_boundary_triangles(mesh, TetAdjacency(mesh, "test"), 0);
 }
 
 TEST(Flip, AFacetGivesWayToAnEdge) {

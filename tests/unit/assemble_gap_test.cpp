@@ -257,7 +257,7 @@ TEST(Refill, TheFacetsOfTheRoomStay) {
 }
 
 // `n` tets around the edge between the first two points.
-TetMesh ring(int n) {
+TetMesh ring_of_tets(int n) {
   TetMesh mesh;
   mesh.points = {{0, 0, -0.6}, {0, 0, 0.6}};
   for (int i = 0; i < n; ++i) mesh.points.push_back({std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), 0});
@@ -267,7 +267,7 @@ TetMesh ring(int n) {
 }
 
 TEST(Refill, ThreeTetsAtAnEdgeBecomeTwoUnlessAFacetIsTaggedOrARegionEnds) {
-  const TetMesh mesh = ring(3);
+  const TetMesh mesh = ring_of_tets(3);
   const std::vector<bool> none_removed(3);
   const std::vector<std::int32_t> cells{0, 1, 2};
   auto refilled = [&](const TetMesh& of) {
@@ -289,7 +289,7 @@ TEST(Refill, ThreeTetsAtAnEdgeBecomeTwoUnlessAFacetIsTaggedOrARegionEnds) {
 
 TEST(Refill, FindsNothingWhereEveryFillingIsWorse) {
   // Four tets at an edge can only become four others, which are no better.
-  const TetMesh mesh = ring(4);
+  const TetMesh mesh = ring_of_tets(4);
   HybridMesh hybrid(mesh, std::vector<bool>(4));
   const SurfaceTags tags = no_tags();
   const GapMesh gap(hybrid, tags, {});
@@ -523,7 +523,7 @@ TEST(FaceCosts, CountEachFaceOnceAndWhatLiesBeyond) {
 }
 
 // A lattice with a part of its cubes chosen and made conforming.
-struct Scene {
+struct ConformingScene {
   testing::Lattice lattice;
   SurfaceTags tags;
   shape::InputSurface input;
@@ -535,7 +535,7 @@ struct Scene {
     add_missing_boundary_triangles(lattice.mesh, TetAdjacency(lattice.mesh, "test"), 0);
     return lattice;
   }
-  Scene(std::uint64_t seed, Random random)
+  ConformingScene(std::uint64_t seed, Random random)
       : lattice(lattice_of(seed, random)),
         tags(lattice.mesh),
         input(lattice.mesh, TetAdjacency(lattice.mesh, "test")),
@@ -560,7 +560,7 @@ TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
   constexpr std::int64_t seeds = hexpipe::testing::random_cases(2000);
   for (std::int64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
-    Scene scene(seed, Random(seed));
+    ConformingScene scene(seed, Random(seed));
     const Census before(scene.hybrid);
     if (!before.valid) continue;
     constexpr std::array all_passes{Passes::merge, Passes::merge_and_refill, Passes::merge_and_refill, Passes::mend};
@@ -644,7 +644,7 @@ TEST(FewerCells, WhatMergesAlongACurvedSurfaceAddsUp) {
 }
 
 TEST(FewerCells, LeavesAMeshWithInvertedCellsAlone) {
-  Scene valid(1, Random(1)), scene(1, Random(1));
+  ConformingScene valid(1, Random(1)), scene(1, Random(1));
   EXPECT_TRUE(valid.make_fewer(Passes::merge_and_refill).any());
   // A vertex inside that goes beyond its neighbours.
   scene.hybrid.points[testing::lattice_vertex(3, 1, 1, 1)] += Vec3{3, 0, 0};

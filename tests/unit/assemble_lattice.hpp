@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/graph/conflict_graph.hpp"
+#include "common/mesh/adjacency.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "common/run/random.hpp"
@@ -23,6 +24,11 @@ struct Lattice {
 
 inline Vertex lattice_vertex(int n, int i, int j, int k) {
   return (i * (n + 1) + j) * (n + 1) + k;
+}
+
+// Triangles of tag 0 on all of the boundary.
+inline void tag_boundary(TetMesh& mesh) {
+  add_missing_boundary_triangles(mesh, TetAdjacency(mesh, "test"), 0);
 }
 
 // `region` tells the region of a cube. No triangles: the boundary is found by assemble.

@@ -19,11 +19,8 @@ namespace {
 
 using testing::lattice_vertex;
 using testing::make_lattice;
+using testing::tag_boundary;
 using Place = InputSurface::Place;
-
-void tag_boundary(TetMesh& mesh) {
-  add_missing_boundary_triangles(mesh, TetAdjacency(mesh, "test"), 0);
-}
 
 // A round column: the lattice with its squares mapped to discs of radius 1, all around at one distance from the axis.
 testing::Lattice make_column(int n) {

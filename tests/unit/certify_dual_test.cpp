@@ -16,8 +16,7 @@ namespace {
 
 using hexpipe::testing::brute_force_weight;
 using hexpipe::testing::make_graph;
-
-const Deadline no_deadline;
+using hexpipe::testing::no_deadline;
 
 ConflictGraph nth_graph(int i, Random& random) {
   const auto vertices = static_cast<std::int32_t>(random.below(22));

@@ -12,17 +12,17 @@ namespace hexpipe {
 namespace {
 
 // A valid prism of a real part that gmshToFoam turns round.
-constexpr std::array<Vec3, 6> warped{{{.1, .13859, .21934},
-                                      {.07927, .13784, .21934},
-                                      {.1, .13645, .23754},
-                                      {.1, .17926, .21308},
-                                      {.07681, .17868, .21538},
-                                      {.1, .17677, .21751}}};
+constexpr std::array<Vec3, 6> warped_prism{{{.1, .13859, .21934},
+                                            {.07927, .13784, .21934},
+                                            {.1, .13645, .23754},
+                                            {.1, .17926, .21308},
+                                            {.07681, .17868, .21538},
+                                            {.1, .17677, .21751}}};
 
 TEST(FaceView, FindsThePrismThatReadersTurnRound) {
-  EXPECT_TRUE(is_valid(CellKind::prism, warped));
-  EXPECT_GT(least_corner_scaled_jacobian(CellKind::prism, warped), 0.12);
-  EXPECT_LT(least_face_view(CellKind::prism, warped), 0);
+  EXPECT_TRUE(is_valid(CellKind::prism, warped_prism));
+  EXPECT_GT(least_corner_scaled_jacobian(CellKind::prism, warped_prism), 0.12);
+  EXPECT_LT(least_face_view(CellKind::prism, warped_prism), 0);
 }
 
 TEST(FaceView, IsTheCosineAtTheCornersOfABox) {
@@ -34,9 +34,9 @@ TEST(FaceView, IsTheCosineAtTheCornersOfABox) {
 }
 
 TEST(FaceView, DependsOnNoSizeAndNoPlace) {
-  std::array<Vec3, 6> moved = warped;
+  std::array<Vec3, 6> moved = warped_prism;
   for (Vec3& p : moved) p = 1e-5 * p + Vec3{3e-5, -2e-5, 1e-5};
-  EXPECT_NEAR(least_face_view(CellKind::prism, moved), least_face_view(CellKind::prism, warped), 1e-9);
+  EXPECT_NEAR(least_face_view(CellKind::prism, moved), least_face_view(CellKind::prism, warped_prism), 1e-9);
 }
 
 TEST(FaceView, IsNegativeForWhatIsInverted) {

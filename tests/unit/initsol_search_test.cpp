@@ -11,8 +11,7 @@ using namespace initsol;
 namespace {
 
 using hexpipe::testing::make_graph;
-
-const Deadline no_deadline;
+using hexpipe::testing::no_deadline;
 
 TEST(Greedy, FollowsItsOrder) {
   // A star: the centre is the heaviest, the leaves bring more together.

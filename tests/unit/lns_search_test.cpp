@@ -19,8 +19,7 @@ namespace {
 
 using hexpipe::testing::brute_force_weight;
 using hexpipe::testing::make_graph;
-
-const Deadline no_deadline;
+using hexpipe::testing::no_deadline;
 
 // The vertices that are free by the definition once `released` are no longer chosen.
 std::set<std::int32_t> free_vertices(const SolutionState& state, const std::vector<std::int32_t>& released) {

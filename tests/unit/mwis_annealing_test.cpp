@@ -10,8 +10,7 @@ using namespace mwis::local_search;
 namespace {
 
 using hexpipe::testing::make_graph;
-
-const Deadline no_deadline;
+using hexpipe::testing::no_deadline;
 
 TEST(Annealing, StaysConsistentAtEveryTemperature) {
   Random random(1);

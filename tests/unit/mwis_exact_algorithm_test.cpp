@@ -14,8 +14,7 @@ using namespace mwis::exact;
 namespace {
 
 using hexpipe::testing::brute_force_weight;
-
-const Deadline no_deadline;
+using hexpipe::testing::no_deadline;
 
 ConflictGraph nth_graph(int i, Random& random) {
   const auto vertices = static_cast<std::int32_t>(random.below(22));

@@ -13,7 +13,7 @@ using namespace mwis::bounds;
 using namespace mwis::ground;
 namespace {
 
-const Deadline no_deadline;
+using hexpipe::testing::no_deadline;
 
 IndependentSet maximal_set(const ConflictGraph& graph) {
   SolutionState state(graph, {});

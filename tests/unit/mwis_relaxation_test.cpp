@@ -17,7 +17,7 @@ namespace {
 using hexpipe::testing::brute_force_weight;
 using hexpipe::testing::make_graph;
 
-ConflictGraph nth_graph(int i, Random& random) {
+ConflictGraph small_graph(int i, Random& random) {
   const auto vertices = static_cast<std::int32_t>(1 + random.below(18));
   return i % 2 == 0 ? hexpipe::testing::random_graph(vertices, random.uniform(), 1000, random)
                     : hexpipe::testing::random_clique_graph(vertices, 20, 1000, random);
@@ -35,7 +35,7 @@ std::int64_t optimum_given(const ConflictGraph& graph, std::int32_t v, bool chos
 TEST(Relaxation, AnyPricesProveItsBounds) {
   Random random(1);
   for (int i = 0; i < 300; ++i) {
-    const ConflictGraph graph = nth_graph(i, random);
+    const ConflictGraph graph = small_graph(i, random);
     const CliqueCover cover = greedy_edge_clique_cover(graph);
     std::vector<double> prices(static_cast<std::size_t>(cover.size()));
     for (double& price : prices) price = random.uniform(0, 300);
@@ -74,7 +74,7 @@ TEST(Relaxation, TakesWeightsWithoutRoomForFractions) {
 TEST(Relaxation, BoundsHugeWeightsAsWellAsOthers) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
-    ConflictGraph graph = nth_graph(i, random);
+    ConflictGraph graph = small_graph(i, random);
     const CliqueCover cover = greedy_edge_clique_cover(graph);
     std::vector<double> prices(static_cast<std::size_t>(cover.size()));
     for (double& price : prices) price = random.uniform(0, 300);
@@ -109,7 +109,7 @@ TEST(HeavyCliques, AreFoundExactlyWhereTheyExist) {
   Random random(2);
   int found = 0;
   for (int i = 0; i < 300; ++i) {
-    const ConflictGraph graph = nth_graph(i, random);
+    const ConflictGraph graph = small_graph(i, random);
     std::vector<double> fractions(graph.weights.size());
     for (double& fraction : fractions) fraction = random.uniform(0, 0.6);
     // The heaviest clique is an independent set of the complement.

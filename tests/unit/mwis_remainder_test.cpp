@@ -12,8 +12,7 @@ using namespace mwis::local_search;
 namespace {
 
 using hexpipe::testing::brute_force_weight;
-
-const Deadline no_deadline;
+using hexpipe::testing::no_deadline;
 
 TEST(Remainder, SolvesSmallGraphs) {
   Random random(1);

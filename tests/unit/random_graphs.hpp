@@ -9,10 +9,13 @@
 
 #include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
+#include "common/run/deadline.hpp"
 #include "common/run/random.hpp"
 
 namespace hexpipe::testing {
 using namespace graph;
+
+inline const Deadline no_deadline;
 
 inline ConflictGraph make_graph(std::vector<std::int64_t> weights,
                                 const std::vector<std::pair<std::int32_t, std::int32_t>>& edges) {

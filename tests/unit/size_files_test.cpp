@@ -5,6 +5,7 @@
 
 #include "common/run/error.hpp"
 #include "formats/pipeline/npy.hpp"
+#include "formats/surfaces/surface_files.hpp"
 
 namespace hexpipe {
 using namespace formats;

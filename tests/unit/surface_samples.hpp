@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "formats/surfaces/surface_building.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::testing {
 using namespace formats;

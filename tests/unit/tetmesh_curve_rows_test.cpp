@@ -22,7 +22,7 @@ using testing::ring;
 using testing::sphere;
 using testing::surface_of;
 
-FeatureMesh mesh_of(const Facets& facets) {
+FeatureMesh feature_mesh_of(const Facets& facets) {
   return {surface_of(facets), 40};
 }
 
@@ -39,7 +39,7 @@ Facets trapezoid(double part) {
 }
 
 TEST(CurveRows, OfABoxAreOfTheSize) {
-  const FeatureMesh mesh = mesh_of(box({0, 0, 0}, {6, 4, 5}, 2));
+  const FeatureMesh mesh = feature_mesh_of(box({0, 0, 0}, {6, 4, 5}, 2));
   const auto curves = curves_of(mesh, 0.5);
   EXPECT_EQ(curves.size(), 12u);
   for (const MeasuredCurve& curve : curves) {
@@ -59,7 +59,7 @@ std::map<long, int> kept_by_radius(const FeatureMesh& mesh) {
 }
 
 TEST(CurveRows, AreAsManyOnBothRimsOfARing) {
-  FeatureMesh mesh = mesh_of(ring(120, 4, 6, 2));
+  FeatureMesh mesh = feature_mesh_of(ring(120, 4, 6, 2));
   FeatureMesh evenly = mesh;
   sample_feature_curves(evenly, 0.5, 0.05);
   EXPECT_EQ(kept_by_radius(evenly)[4] / 2, 50);
@@ -70,7 +70,7 @@ TEST(CurveRows, AreAsManyOnBothRimsOfARing) {
 }
 
 TEST(CurveRows, GiveWayToTheDeviation) {
-  FeatureMesh mesh = mesh_of(ring(480, 4, 6, 2));
+  FeatureMesh mesh = feature_mesh_of(ring(480, 4, 6, 2));
   FeatureMesh evenly = mesh;
   sample_feature_curves(evenly, 0.5, 0.002);
   sample_feature_curves(mesh, curves_of(mesh, 0.5), 0.5, 0.002);
@@ -81,7 +81,7 @@ TEST(CurveRows, GiveWayToTheDeviation) {
 TEST(CurveRows, AreNearlyAsManyOnBothSidesOfATrapezoid) {
   double below = 0, above = 0;
   std::vector<int> along;
-  for (const MeasuredCurve& curve : curves_of(mesh_of(trapezoid(0.8)), 1)) {
+  for (const MeasuredCurve& curve : curves_of(feature_mesh_of(trapezoid(0.8)), 1)) {
     const Vec3 from = curve.points.front(), to = curve.points.back();
     double steps = 0;
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i)
@@ -99,12 +99,12 @@ TEST(CurveRows, AreNearlyAsManyOnBothSidesOfATrapezoid) {
 }
 
 TEST(CurveRows, OfASmoothSurfaceAreNone) {
-  EXPECT_TRUE(curves_of(mesh_of(sphere({0, 0, 0}, 2, 24)), 0.3).empty());
+  EXPECT_TRUE(curves_of(feature_mesh_of(sphere({0, 0, 0}, 2, 24)), 0.3).empty());
 }
 
 TEST(SurfaceCurl, StretchesRowsBetweenThePointsOfFeatures) {
   // Ten steps of 1.2 below, and as many of 0.96 above.
-  FeatureMesh mesh = mesh_of(trapezoid(0.8));
+  FeatureMesh mesh = feature_mesh_of(trapezoid(0.8));
   const auto is_along_x = [](const MeasuredCurve& curve) { return curve.points.front().x * curve.points.back().x < 0; };
   std::vector<MeasuredCurve> curves = curves_of(mesh, 1);
   for (MeasuredCurve& curve : curves) {

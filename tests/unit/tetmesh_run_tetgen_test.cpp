@@ -28,15 +28,15 @@ using testing::sphere;
 
 constexpr double timeout = 60;
 
-Surface surface_of(const Facets& facets) {
+Surface shells_of(const Facets& facets) {
   return find_shells(soup_of(facets), ShellRule::oriented);
 }
 
-TetGenResult run(const SurfaceSoup& soup, std::span<const Vec3> points = {}, double seconds = timeout) {
+TetGenResult tets_of(const SurfaceSoup& soup, std::span<const Vec3> points = {}, double seconds = timeout) {
   return run_tetgen({soup.points, soup.triangles, points, 0}, seconds);
 }
 
-std::string error_of(const Surface& surface, TetGenResult result, std::span<const Vec3> points = {}) {
+std::string error_of_tets(const Surface& surface, TetGenResult result, std::span<const Vec3> points = {}) {
   try {
     build_mesh(surface, points, std::move(result));
   } catch (const DataError& error) {
@@ -45,7 +45,7 @@ std::string error_of(const Surface& surface, TetGenResult result, std::span<cons
   return "no error";
 }
 
-double volume_of(const TetMesh& mesh, std::int32_t region) {
+double volume_of_region(const TetMesh& mesh, std::int32_t region) {
   double volume = 0;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     if (mesh.tet_tags[t] == region) volume += tet_determinant(mesh.points, mesh.tets[t]) / 6;
@@ -53,9 +53,9 @@ double volume_of(const TetMesh& mesh, std::int32_t region) {
 }
 
 TEST(RunTetgen, KeepsSurfaceAndPointsInTheirOrder) {
-  const Surface surface = surface_of(cube(0, 4, 4));
+  const Surface surface = shells_of(cube(0, 4, 4));
   const std::vector<Vec3> points{{2.1, 2, 2}, {1, 1, 1.2}, {3, 1.5, 1}, {1, 2.9, 3}};
-  const TetGenResult result = run(surface, points);
+  const TetGenResult result = tets_of(surface, points);
   EXPECT_EQ(result.failure, "");
   ASSERT_EQ(result.points.size(), surface.points.size() + points.size());
   EXPECT_TRUE(std::equal(surface.points.begin(), surface.points.end(), result.points.begin()));
@@ -65,16 +65,16 @@ TEST(RunTetgen, KeepsSurfaceAndPointsInTheirOrder) {
   EXPECT_EQ(built.added_points, 0u);
   EXPECT_EQ(built.dropped_points, 0u);
   EXPECT_EQ(built.mesh.triangles, surface.triangles);
-  EXPECT_NEAR(volume_of(built.mesh, 1), 64, 1e-9);
+  EXPECT_NEAR(volume_of_region(built.mesh, 1), 64, 1e-9);
 }
 
 TEST(RunTetgen, AShuffledOrderChangesTetsOnly) {
-  const Surface surface = surface_of(sphere({0, 0, 0}, 4, 12));
+  const Surface surface = shells_of(sphere({0, 0, 0}, 4, 12));
   const std::vector<Vec3> points{{2.1, 2, 2}, {1, 1, 1.2}, {-1, 0.5, 1}, {1, -2, -1}};
   std::vector<std::vector<Tet>> tets;
   for (const std::uint64_t order : {0, 1, 2}) {
     const TetGenResult result = run_tetgen({surface.points, surface.triangles, points, order}, timeout);
-    EXPECT_EQ(error_of(surface, result, points), "no error");
+    EXPECT_EQ(error_of_tets(surface, result, points), "no error");
     EXPECT_TRUE(std::equal(points.begin(), points.end(), result.points.begin() + surface.points.size()));
     tets.push_back(result.tets);
   }
@@ -86,9 +86,9 @@ TEST(RunTetgen, TellsApartWhatNearlyTouchesWhereItIsStrict) {
   Facets beside = cube(0, 1);
   for (auto& facet : beside)
     for (Vec3& p : facet) p.x += 1 + 1e-9;
-  const Surface surface = surface_of(joined(cube(0, 1), beside));
+  const Surface surface = shells_of(joined(cube(0, 1), beside));
   const auto error = [&](bool strict) {
-    return error_of(
+    return error_of_tets(
         surface,
         run_tetgen(
             {.surface_points = surface.points, .triangles = surface.triangles, .interior_points = {}, .strict = strict},
@@ -100,22 +100,22 @@ TEST(RunTetgen, TellsApartWhatNearlyTouchesWhereItIsStrict) {
 
 TEST(RunTetgen, EmptiesHolesAndSeparatesRegions) {
   const Facets facets = joined(joined(cube(0, 8), inverted(cube(1, 3))), cube(5, 2));
-  const Surface surface = surface_of(facets);
-  const BuiltMesh built = build_mesh(surface, {}, run(surface));
-  EXPECT_NEAR(volume_of(built.mesh, 1), 512 - 27 - 8, 1e-9);
-  EXPECT_NEAR(volume_of(built.mesh, 2), 8, 1e-9);
+  const Surface surface = shells_of(facets);
+  const BuiltMesh built = build_mesh(surface, {}, tets_of(surface));
+  EXPECT_NEAR(volume_of_region(built.mesh, 1), 512 - 27 - 8, 1e-9);
+  EXPECT_NEAR(volume_of_region(built.mesh, 2), 8, 1e-9);
   EXPECT_EQ(std::ranges::count(built.mesh.tet_tags, 0), 0);
 }
 
 TEST(RunTetgen, NamesIntersectingTriangles) {
   const SurfaceSoup soup = soup_of(joined(cube(), cube(0.5)));
-  const TetGenResult result = run(soup);
+  const TetGenResult result = tets_of(soup);
   EXPECT_EQ(result.failure, "it found triangles that intersect");
   EXPECT_GE(result.intersecting.size(), 2u);
   EXPECT_TRUE(result.tets.empty());
   const Surface surface{soup, std::vector<std::int32_t>(24), {Shell{}}, 1};
-  EXPECT_THAT(error_of(surface, result), HasSubstr("part: triangle "));
-  EXPECT_THAT(error_of(surface, result), HasSubstr("TetGen failed: it found"));
+  EXPECT_THAT(error_of_tets(surface, result), HasSubstr("part: triangle "));
+  EXPECT_THAT(error_of_tets(surface, result), HasSubstr("TetGen failed: it found"));
 }
 
 TEST(RunTetgen, SurvivesSurfacesThatMakeTetgenAbort) {
@@ -127,11 +127,11 @@ TEST(RunTetgen, SurvivesSurfacesThatMakeTetgenAbort) {
   facets.pop_back();
   const SurfaceSoup open = soup_of(facets);
   const Surface pretended{open, std::vector<std::int32_t>(11), {Shell{.behind = 1}}, 1};
-  EXPECT_THAT(error_of(pretended, run(open)), HasSubstr("TetGen failed"));
+  EXPECT_THAT(error_of_tets(pretended, tets_of(open)), HasSubstr("TetGen failed"));
 }
 
 TEST(RunTetgen, GivesUpInTime) {
-  const Surface surface = surface_of(sphere({0, 0, 0}, 1, 100));
+  const Surface surface = shells_of(sphere({0, 0, 0}, 1, 100));
   EXPECT_THAT(run(surface, {}, 0.001).failure, HasSubstr("longer than --tetgen-timeout"));
 }
 
@@ -140,7 +140,7 @@ TEST(RunTetgen, TellsOfMissingMemoryAtOnce) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer's shadow memory is over any limit";
 #else
-  const Surface surface = surface_of(sphere({0, 0, 0}, 1, 250));
+  const Surface surface = shells_of(sphere({0, 0, 0}, 1, 250));
   rlimit limit;
   ASSERT_EQ(getrlimit(RLIMIT_AS, &limit), 0);
   std::size_t pages = 0;
@@ -149,7 +149,7 @@ TEST(RunTetgen, TellsOfMissingMemoryAtOnce) {
   ASSERT_EQ(setrlimit(RLIMIT_AS, &less), 0);
   std::string message;
   try {
-    run(surface);
+    tets_of(surface);
   } catch (const DataError& error) {
     message = error.what();
   }
@@ -159,44 +159,44 @@ TEST(RunTetgen, TellsOfMissingMemoryAtOnce) {
 }
 
 TEST(BuildMesh, NoticesWhatTetgenMightDoWrong) {
-  const Surface surface = surface_of(cube(0, 4, 4));
+  const Surface surface = shells_of(cube(0, 4, 4));
   const std::vector<Vec3> points{{2.1, 2, 2}, {1, 1, 1.2}};
-  const TetGenResult good = run(surface, points);
-  EXPECT_EQ(error_of(surface, good, points), "no error");
+  const TetGenResult good = tets_of(surface, points);
+  EXPECT_EQ(error_of_tets(surface, good, points), "no error");
 
   TetGenResult moved = good;
   moved.points[3].x += 1e-9;
-  EXPECT_THAT(error_of(surface, moved, points), HasSubstr("it moved or merged points"));
+  EXPECT_THAT(error_of_tets(surface, moved, points), HasSubstr("it moved or merged points"));
 
   TetGenResult inverted_tet = good;
   std::swap(inverted_tet.tets[5][0], inverted_tet.tets[5][1]);
-  EXPECT_THAT(error_of(surface, inverted_tet, points), HasSubstr("1 of its"));
+  EXPECT_THAT(error_of_tets(surface, inverted_tet, points), HasSubstr("1 of its"));
 
   TetGenResult lost = good;
   const Triangle at_surface = surface.triangles[7];
   std::erase_if(lost.tets, [&](const Tet& t) {
     return std::ranges::all_of(at_surface, [&](Vertex v) { return std::ranges::find(t, v) != t.end(); });
   });
-  EXPECT_THAT(error_of(surface, lost, points), HasSubstr("part: triangle 8: TetGen failed: it lost"));
+  EXPECT_THAT(error_of_tets(surface, lost, points), HasSubstr("part: triangle 8: TetGen failed: it lost"));
 
   TetGenResult gap = good;
   const auto inner = static_cast<Vertex>(surface.points.size());
   std::erase_if(gap.tets,
                 [&](const Tet& t) { return std::ranges::count_if(t, [&](Vertex v) { return v >= inner; }) == 2; });
   ASSERT_LT(gap.tets.size(), good.tets.size());
-  EXPECT_THAT(error_of(surface, gap, points), HasSubstr("TetGen failed: its tets leave a gap"));
+  EXPECT_THAT(error_of_tets(surface, gap, points), HasSubstr("TetGen failed: its tets leave a gap"));
 
   TetGenResult none = good;
   none.tets.clear();
-  EXPECT_THAT(error_of(surface, none, points), HasSubstr("it lost 192 triangles"));
+  EXPECT_THAT(error_of_tets(surface, none, points), HasSubstr("it lost 192 triangles"));
 }
 
 TEST(BuildMesh, CountsPointsThatCameAndWent) {
-  const Surface surface = surface_of(cube(0, 4, 4));
+  const Surface surface = shells_of(cube(0, 4, 4));
   const std::vector<Vec3> points{{2.1, 2, 2}, {9, 9, 9}, {1, 1, 1.2}};
-  EXPECT_EQ(build_mesh(surface, points, run(surface, points)).dropped_points, 1u);
+  EXPECT_EQ(build_mesh(surface, points, tets_of(surface, points)).dropped_points, 1u);
   const std::vector<Vec3> one{points[0]};
-  EXPECT_EQ(build_mesh(surface, one, run(surface, points)).added_points, 1u);
+  EXPECT_EQ(build_mesh(surface, one, tets_of(surface, points)).added_points, 1u);
 }
 
 }  // namespace

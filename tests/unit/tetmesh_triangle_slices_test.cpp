@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "common/run/random.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 #include "tools/tetmesh/geometry/apart_test.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"

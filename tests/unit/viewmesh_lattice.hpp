@@ -1,7 +1,7 @@
 #pragma once
 // A scene for the tests of viewmesh: a lattice of unit hexes.
 
-#include "tools/viewmesh/scene.hpp"
+#include "tools/viewmesh/make_scene.hpp"
 
 namespace hexpipe {
 

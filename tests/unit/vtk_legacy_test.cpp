@@ -13,7 +13,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr std::string_view one_tet = R"(# vtk DataFile Version 2.0
+constexpr std::string_view legacy_tet = R"(# vtk DataFile Version 2.0
 a title
 ASCII
 DATASET UNSTRUCTURED_GRID
@@ -37,8 +37,8 @@ LOOKUP_TABLE default
 -5
 )";
 
-std::string changed(std::string_view from, std::string_view to) {
-  std::string text(one_tet);
+std::string legacy_with(std::string_view from, std::string_view to) {
+  std::string text(legacy_tet);
   return text.replace(text.find(from), from.size(), to);
 }
 
@@ -54,7 +54,7 @@ std::string big_endian(std::initializer_list<T> numbers) {
 }
 
 TEST(VtkLegacy, ReadsCellsFacetsAndTags) {
-  const MixedMesh mesh = parsed(std::string(one_tet));
+  const MixedMesh mesh = parsed(std::string(legacy_tet));
   EXPECT_EQ(mesh.points.size(), 5u);
   EXPECT_THAT(mesh.tets.cells, ElementsAre(Tet{0, 1, 2, 3}));
   EXPECT_THAT(mesh.tets.tags, ElementsAre(7));
@@ -70,7 +70,7 @@ TEST(VtkLegacy, ReadsBinary) {
            big_endian<std::int32_t>({3, 10, 5}) + "CELL_DATA 3\nSCALARS tag short\nLOOKUP_TABLE default\n" +
            big_endian<std::int16_t>({1, 7, -5});
   };
-  EXPECT_TRUE(parsed(text("12")) == parsed(std::string(one_tet)));
+  EXPECT_TRUE(parsed(text("12")) == parsed(std::string(legacy_tet)));
   EXPECT_THAT(message_of_reading(text("11")), HasSubstr("expected a number of corners, found 3"));
   EXPECT_THAT(message_of_reading(text("9")), HasSubstr("expected a number of corners, found 3"));
   EXPECT_THAT(message_of_reading(text("8")), HasSubstr("expected 3 cells, found 2"));
@@ -83,11 +83,11 @@ TEST(VtkLegacy, ReadsBinary) {
 }
 
 TEST(VtkLegacy, ReadsOffsetsAndConnectivity) {
-  std::string text = changed("Version 2.0", "Version 5.1");
+  std::string text = legacy_with("Version 2.0", "Version 5.1");
   const std::size_t begin = text.find("CELLS"), end = text.find("CELL_TYPES");
   text.replace(begin, end - begin,
                "CELLS 4 9\nOFFSETS vtktypeint64\n0 2 6 9\nCONNECTIVITY vtktypeint64\n0 1 0 1 2 3 1 2 3\n");
-  EXPECT_TRUE(parsed(text) == parsed(std::string(one_tet)));
+  EXPECT_TRUE(parsed(text) == parsed(std::string(legacy_tet)));
   const auto message = [&](std::string_view from, std::string_view to) {
     std::string copy = text;
     return message_of_reading(copy.replace(copy.find(from), from.size(), to));
@@ -101,7 +101,7 @@ TEST(VtkLegacy, ReadsOffsetsAndConnectivity) {
 }
 
 TEST(VtkLegacy, SkipsOtherData) {
-  const std::string text = changed("CELL_DATA 3\n", R"(METADATA
+  const std::string text = legacy_with("CELL_DATA 3\n", R"(METADATA
 INFORMATION 1
 NAME L2_NORM_RANGE LOCATION vtkDataArray
 DATA 2 0 2.1
@@ -138,11 +138,11 @@ SCALARS region int 2
 LOOKUP_TABLE default
 0 0 0 0 0 0
 )");
-  EXPECT_TRUE(parsed(text) == parsed(std::string(one_tet)));
+  EXPECT_TRUE(parsed(text) == parsed(std::string(legacy_tet)));
 }
 
 TEST(VtkLegacy, RegionAndSurfaceComeBeforeOtherNames) {
-  std::string text(one_tet);
+  std::string text(legacy_tet);
   text += "FIELD FieldData 3\nregion 1 3 int\n10 11 12\nsurface 1 3 double\n20 21 22.0\nquality 1 3 float\n1 0.5 1\n";
   const MixedMesh mesh = parsed(text);
   EXPECT_THAT(mesh.tets.tags, ElementsAre(11));
@@ -150,8 +150,8 @@ TEST(VtkLegacy, RegionAndSurfaceComeBeforeOtherNames) {
   EXPECT_THAT(mesh.tets.quality, ElementsAre(0.5));
   EXPECT_TRUE(mesh.triangles.quality.empty());
   for (const char* name : {"gmsh:physical", "medit:ref", "CellEntityIds"})
-    EXPECT_THAT(parsed(changed("SCALARS tag", std::string("SCALARS ") + name)).tets.tags, ElementsAre(7)) << name;
-  EXPECT_THAT(parsed(changed("SCALARS tag", "SCALARS other")).tets.tags, ElementsAre(0));
+    EXPECT_THAT(parsed(legacy_with("SCALARS tag", std::string("SCALARS ") + name)).tets.tags, ElementsAre(7)) << name;
+  EXPECT_THAT(parsed(legacy_with("SCALARS tag", "SCALARS other")).tets.tags, ElementsAre(0));
 }
 
 TEST(VtkLegacy, TurnsWedgesPixelsAndVoxels) {
@@ -177,7 +177,7 @@ CELL_TYPES 3
 
 TEST(VtkLegacy, NamesTheLineOfADefect) {
   const auto expect = [](std::string_view from, std::string_view to, const std::string& message) {
-    EXPECT_EQ(message_of_reading(changed(from, to)), message);
+    EXPECT_EQ(message_of_reading(legacy_with(from, to)), message);
   };
   expect("2.0", "6.0", "test:1: expected a version from 1.0 to 5.1, found another");
   expect("ASCII", "TEXT", "test:3: expected ASCII or BINARY, found 'TEXT'");

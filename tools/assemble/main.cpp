@@ -61,34 +61,34 @@ void declare_options(CLI::App& app, CommandLine& line) {
   line.exchange_option =
       app.add_option("--exchange", line.exchange,
                      "quads: exchanges chosen hexes for other candidates, by volume and quality, less a cost for each "
-                     "quad that faces tets; none: keeps the choice, as always with --conformity none and with "
-                     "--neighbours, and unless this option is given for a graph of buildgraph --quad-reward")
+                     "quad that faces tets; none: keeps the choice. none always holds with --conformity none and with "
+                     "--neighbours, and is the default for a graph of buildgraph --quad-reward")
           ->check(CLI::IsMember(exchanges))
           ->capture_default_str();
   line.fill_option =
       app.add_option("--fill", line.fill,
                      "prisms: makes prisms of tets between the cells where they close at least as many quads as they "
-                     "open; none: keeps the tets, as always with --conformity none and with --neighbours")
+                     "open; none: keeps the tets. none always holds with --conformity none and with --neighbours")
           ->check(CLI::IsMember(fills))
           ->capture_default_str();
   line.merge_option =
       app.add_option("--merge", line.merge,
                      "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
-                     "this leaves fewer or better cells; none: keeps them, as always with --conformity none and with "
-                     "--smooth 0")
+                     "this leaves fewer or better cells; none: keeps them. none always holds with --conformity none and "
+                     "with --smooth 0")
           ->check(CLI::IsMember(merges))
           ->capture_default_str();
   app.add_option("--smooth", line.smooth,
-                 "rounds of moving vertices and flipping tets to make the worst cells better and hexes larger; 0: none")
+                 "Rounds of moving vertices and flipping tets to make the worst cells better and hexes larger; 0: none")
       ->group(group::first)
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   outside_history(
       app.add_option(
           "--require", line.require,
-          "Writes nothing, and tells where it is, if something in the result is worse than this list says, such as "
-          "'hexes 0.3, cells 0.1, orthogonality 70, weight 0.05, determinant 0.001, flatness 0.8': the scaled Jacobian "
-          "of hexes, that of all cells, and what finite volumes need (docs/definitions.md)"))
+          "Limits that the result must keep, such as 'hexes 0.3, cells 0.1, orthogonality 70, weight 0.05, determinant "
+          "0.001, flatness 0.8': the scaled Jacobian of hexes, that of all cells, and what finite volumes need "
+          "(docs/definitions.md); if it does not, nothing is written, and a message names the place"))
       ->type_name("LIST");
   begin_group(app, "Second order");
   app.add_option("--order", line.order,

@@ -20,7 +20,7 @@ using namespace hexpipe::certify;
 int main(int argc, char** argv) {
   const ToolInfo info{
       .name = "certify",
-      .summary = "Prove an upper bound on any choice of candidates, and tell how far from it this one is.",
+      .summary = "Prove an upper bound on any choice of candidates, and the distance of this choice from it.",
       .example = "certify --graph part.graph --solution part.sol -v -o part.sol",
       .reads = {Role::graph, Role::solution},
       .product = Role::solution,

@@ -22,10 +22,10 @@ constexpr std::int64_t least_rounds = 100;
 // Annealing of graphs of this many vertices tries first whether cooling slowly will gain anything (tries_first).
 // Smaller ones cool in a second.
 constexpr std::int32_t least_to_try = 20000;
-// Of what 15 moves a vertex gain over the first local optimum, a quarter of a move, begun in the middle of the
-// temperatures, gains 96 to 100 % on graphs of hexes, in a tenth of the time: 0.141 of 0.145 % on mambo-m1, 0.347 of
-// 0.356 % on spot. On random-33k it gains 6.6 of 8.8 %, on block-28k 0.70 of 0.96 %. Such graphs are told by what a
-// second trial gains, and by how far the first local optimum is from the best.
+// On graphs of hexes, a quarter of a move a vertex, begun in the middle of the temperatures, gains 96 to 100 % of what
+// 15 moves gain over the first local optimum, in a tenth of the time: 0.141 of 0.145 % on mambo-m1, 0.347 of 0.356 % on
+// spot. On random-33k it gains 6.6 of 8.8 %, on block-28k 0.70 of 0.96 %. Such graphs are recognized by what a second
+// trial gains, and by how far the first local optimum is from the best.
 constexpr double moves_a_vertex_of_trial = 0.25, least_gain_of_trial = 1e-4, far_from_optimum = 5e-3;
 
 graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vector<double> merits,

@@ -10,7 +10,7 @@ using namespace hexpipe::merge_parts;
 int main(int argc, char** argv) {
   const ToolInfo info{
       .name = "merge-parts",
-      .summary = "Put parts or shares of candidates, graphs and solutions together, to the bytes of a single run.",
+      .summary = "Join parts or shares of candidates, graphs and solutions to the same bytes as those of a single run.",
       .example = "merge-parts graph-*.tar | initsol | lns | assemble -o engine.vtu",
       .reads = {},
       .product = std::nullopt,

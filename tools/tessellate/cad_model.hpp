@@ -70,7 +70,7 @@ void heal_bodies(CadModel& model);
 void find_sheets(const TopoDS_Shape& whole, CadModel& model);
 
 // Lets bodies that touch share their common faces, edges and vertices, and puts sheets into the bodies that they lie
-// in, as internal faces. What lies in none is left out, which is told. Throws DataError for bodies that overlap.
+// in, as internal faces. What lies in none is left out with a warning. Throws DataError for bodies that overlap.
 void join_bodies(const std::string& source, CadModel& model);
 
 }  // namespace hexpipe::tessellate

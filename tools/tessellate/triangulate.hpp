@@ -5,7 +5,7 @@
 #include <string>
 
 #include "formats/pipeline/exact_shape.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 #include "tools/tessellate/cad_model.hpp"
 
 namespace hexpipe::tessellate {

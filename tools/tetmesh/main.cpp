@@ -13,7 +13,7 @@
 #include "formats/pipeline/stage.hpp"
 #include "formats/points/point_files.hpp"
 #include "formats/points/size_files.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 #include "tools/tetmesh/options.hpp"
 #include "tools/tetmesh/tetmesh.hpp"
 

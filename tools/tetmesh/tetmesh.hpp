@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 #include "tools/tetmesh/options.hpp"
 #include "tools/tetmesh/statistics.hpp"
 #include "tools/tetmesh/volume/dislocations.hpp"

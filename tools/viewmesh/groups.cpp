@@ -6,7 +6,6 @@
 #include <map>
 
 #include "tools/viewmesh/facets.hpp"
-#include "tools/viewmesh/scene.hpp"
 
 namespace hexpipe::viewmesh {
 namespace {
@@ -91,12 +90,6 @@ void find_groups(const formats::GroupNames& names, std::vector<TaggedTriangle> t
     for (int facet = 0; facet < facet_count(scene.kind_of(cell)); ++facet)
       if (const auto* tag = lookup.tag_of(facet_corners(scene, cell, facet)))
         scene.surface_facets.push_back({cell, facet, static_cast<std::int32_t>(place_of(scene.surfaces, *tag))});
-}
-
-std::size_t place_of(const std::vector<Group>& groups, std::int32_t tag) {
-  const auto found =
-      std::lower_bound(groups.begin(), groups.end(), tag, [](const Group& group, auto t) { return group.tag < t; });
-  return found != groups.end() && found->tag == tag ? static_cast<std::size_t>(found - groups.begin()) : groups.size();
 }
 
 }  // namespace hexpipe::viewmesh

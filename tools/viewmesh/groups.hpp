@@ -3,20 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "formats/streams/group_names.hpp"
+#include "tools/viewmesh/scene.hpp"
 
 namespace hexpipe::viewmesh {
-
-struct Scene;
-
-struct Group {
-  std::int32_t tag;
-  std::string name;  // that of names.json, otherwise region_1 or surface_3
-};
 
 // A triangle of the mesh's surface, its vertices ascending. A quad stands as the four triangles of its corners: in
 // candidates a hex's quad is two triangles of the tet mesh, in a result it is one quad.
@@ -31,8 +23,5 @@ void append_tagged(const std::vector<std::array<std::int32_t, 4>>& quads, const 
 
 // Sets regions, surfaces and surface_facets of a scene that has its cells.
 void find_groups(const formats::GroupNames& names, std::vector<TaggedTriangle> triangles, Scene& scene);
-
-// The place of the group with this tag, or `groups.size()`.
-std::size_t place_of(const std::vector<Group>& groups, std::int32_t tag);
 
 }  // namespace hexpipe::viewmesh

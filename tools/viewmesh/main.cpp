@@ -10,6 +10,7 @@
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/stage.hpp"
+#include "tools/viewmesh/make_scene.hpp"
 #include "tools/viewmesh/options.hpp"
 #include "tools/viewmesh/page.hpp"
 #include "tools/viewmesh/picture/picture.hpp"

@@ -12,10 +12,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/vec3.hpp"
-#include "formats/pipeline/stage_data.hpp"
-#include "formats/streams/input.hpp"
 #include "tools/viewmesh/dislocation_lines.hpp"
-#include "tools/viewmesh/groups.hpp"
 
 namespace hexpipe::viewmesh {
 
@@ -24,6 +21,12 @@ inline constexpr std::array measure_names{"orthogonality", "weight", "determinan
 
 // Kinds in the order in which a scene lists its cells.
 inline constexpr std::array scene_kinds{CellKind::hex, CellKind::prism, CellKind::pyramid, CellKind::tet};
+
+// A region or a surface.
+struct Group {
+  std::int32_t tag;
+  std::string name;  // that of names.json, otherwise region_1 or surface_3
+};
 
 struct Scene {
   // The stage that the cells come from. Candidates overlap; other cells do not.
@@ -76,14 +79,7 @@ struct Scene {
 
 const char* name_of(Scene::Content content);
 
-// The last one in the input of mesh, candidates, solution and result. Throws DataError naming `source` when there is
-// none, there are no cells, or candidates come without the mesh that has their points.
-Scene::Content last_content(const pipeline::StageData& data, const std::string& source);
-Scene make_scene(pipeline::StageData data, Scene::Content content, const std::string& source);
-
-// Gives the scene the fragments of a text, whose lines have the candidates of one fragment each, counted from 1. It
-// finds them by Scene::number among hexes, prisms and pyramids. Throws FormatError at a number that is not a
-// candidate's.
-void read_fragments(Scene& scene, formats::Input& input);
+// The place of the group with this tag, or `groups.size()`.
+std::size_t place_of(const std::vector<Group>& groups, std::int32_t tag);
 
 }  // namespace hexpipe::viewmesh

@@ -14,6 +14,7 @@
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/surface_file.hpp"
 #include "formats/streams/output.hpp"
+#include "formats/surfaces/surface_files.hpp"
 #include "tools/wrap/wrap.hpp"
 
 using namespace hexpipe;

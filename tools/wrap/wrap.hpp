@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 #include "tools/wrap/surface.hpp"
 
 namespace hexpipe::wrap {

@@ -34,7 +34,7 @@ double vertices_of_whole(const graph::ConflictGraph& graph) {
   return vertices * std::clamp(vertices / vertices_a_cooling, least, most);
 }
 // The rule judges once the search has worked as long as annealing this many vertices once takes. Fragments begin
-// anywhere, so that what they gain tells of the rest, too: of 1.2 million candidates of a CAD model, the last gain
+// anywhere, so what they gain says something about the rest, too: of 1.2 million candidates of a CAD model, the last gain
 // comes within a twentieth of a cooling.
 constexpr double vertices_of_sample = 30000;
 

@@ -30,7 +30,7 @@ constexpr int sweeps = 40;
 // The shares of vertices at a cell that is not well fall by this factor; below the last one they stay where they are.
 constexpr double falling = 0.7, least_share = 1e-3;
 constexpr int most_steps = 80;
-// After so many falls, which leave a quarter and a twentieth of the way, worse cells are well enough: a low layer
+// After this many falls, which leave a quarter and a twentieth of the way, worse cells are well enough: a low layer
 // beside a poor cell is better than none.
 constexpr int first_relief = 4, last_relief = 8;
 constexpr double relieved_quality = 0.6, poorest_quality = 0.01, poorest_of_sides = 0.5;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/mesh/box_tree.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::assemble::order {
 

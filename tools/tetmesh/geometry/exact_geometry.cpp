@@ -15,7 +15,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
+using TriangleBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
 
 Point to_cgal(const Vec3& p) {
   return {p.x, p.y, p.z};
@@ -82,8 +82,8 @@ class IntersectionTest {
   ApartTest apart_;
 };
 
-std::vector<Box> boxes_of(std::span<const Vec3> points, std::span<const Triangle> triangles) {
-  std::vector<Box> boxes;
+std::vector<TriangleBox> boxes_of(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+  std::vector<TriangleBox> boxes;
   boxes.reserve(triangles.size());
   for (const Triangle& t : triangles) {
     CGAL::Bbox_3 bounds;
@@ -109,14 +109,14 @@ IntersectionReport find_intersections(std::span<const Vec3> points, std::span<co
                                       std::size_t limit) {
   IntersectionReport report;
   const IntersectionTest intersect(points, triangles);
-  auto take = [&](const Box& first, const Box& second) {
+  auto take = [&](const TriangleBox& first, const TriangleBox& second) {
     if (!intersect(first.info(), second.info())) return;
     if (report.pairs.size() == limit) throw LimitReached();
     report.pairs.push_back({std::min(first.info(), second.info()), std::max(first.info(), second.info())});
   };
   // Boxes of the slices of narrow triangles are no help here: on a leaning cylinder of 4,000 triangles, three times as
   // many pairs of slices meet as pairs of whole triangles.
-  std::vector<Box> boxes = boxes_of(points, triangles);
+  std::vector<TriangleBox> boxes = boxes_of(points, triangles);
   try {
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), take);
   } catch (const LimitReached&) {

@@ -31,7 +31,7 @@ using formats::SurfaceSoup;
 using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>;
 using Triangles = std::vector<std::int32_t>;
 
-constexpr std::size_t most_pairs = 10'000'000;
+constexpr std::size_t most_intersections = 10'000'000;
 
 class Uniter {
  public:
@@ -77,12 +77,12 @@ class Uniter {
 
   // Each of two bodies or more.
   std::vector<std::vector<std::int32_t>> groups_of_bodies() const {
-    const auto found = geometry::find_intersections(soup_.points, soup_.triangles, most_pairs);
+    const auto found = geometry::find_intersections(soup_.points, soup_.triangles, most_intersections);
     if (!found.complete)
       throw DataError::at(soup_.name,
                           "expected bodies that overlap, found more than {} "
                           "pairs of triangles that do",
-                          most_pairs);
+                          most_intersections);
     JoinedSets sets(soup_.triangles.size());
     for (const auto& [t, u] : found.pairs) sets.join(body_of_[t], body_of_[u]);
     std::map<std::int32_t, std::vector<std::int32_t>> by_set;

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::tetmesh::solid {
 
@@ -14,6 +14,6 @@ namespace hexpipe::tetmesh::solid {
 // joined to others. Throws DataError where a body that intersects another one
 // is open, intersects itself, or points inward, and where two touch in an edge
 // or a vertex alone.
-std::size_t unite_bodies(formats::SurfaceSoup &soup);
+std::size_t unite_bodies(formats::SurfaceSoup& soup);
 
-} // namespace hexpipe::tetmesh::solid
+}  // namespace hexpipe::tetmesh::solid

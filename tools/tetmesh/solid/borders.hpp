@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::tetmesh::solid {
 

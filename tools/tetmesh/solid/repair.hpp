@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
 
 namespace hexpipe::tetmesh::solid {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::tetmesh::solid {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::tetmesh::geometry {
 class ColumnIndex;

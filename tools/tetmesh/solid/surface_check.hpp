@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "formats/surfaces/surface_files.hpp"
+#include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::tetmesh::solid {
 

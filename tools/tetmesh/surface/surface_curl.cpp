@@ -14,7 +14,7 @@ namespace {
 // The smaller the stiffness, the further from the place of need do rows stretch. On the fine size of
 // tests/bench/points, 0.005 gives 0.1 % more of the volume in hexes on larger models and 1.6 % less on simp; 0.05 gives
 // 0.4 % less than 0.02 on larger ones.
-constexpr fields::CurlLimits limits{.stiffness = 0.01f, .most_iterations = 300, .tolerance = 1e-3};
+constexpr fields::CurlLimits curl_limits{.stiffness = 0.01f, .most_iterations = 300, .tolerance = 1e-3};
 // Numbers of steps are better known where rows stretch further for them: at 0.01 rows end in the middle of long faces.
 // 0.001 presses what is between two grids at an angle: mambo-s22 has 113 row ends then, 73 at 0.01.
 constexpr fields::CurlLimits limits_of_rows{.stiffness = 0.003f, .most_iterations = 600, .tolerance = 1e-3};
@@ -205,7 +205,7 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
   for_each_corner(links, [&](geometry::HalfEdge h) { add_corner(links, h, loops); });
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links.of.size()); ++h)
     if (links.surface.feature[h]) add_rows_between(links, h, loops);
-  const std::vector<float> correction = fields::curl_correction(distances_of(links), loops, limits);
+  const std::vector<float> correction = fields::curl_correction(distances_of(links), loops, curl_limits);
   links.change_distances([&](geometry::HalfEdge h, SurfaceLink& link) {
     const std::int32_t f = geometry::triangle_of(h);
     const double longest =

@@ -28,8 +28,8 @@ namespace {
 constexpr double edge_weight = 20, point_weight = 5;
 // How strongly the guide pulls where it is certain; at 20 and 100 there are as many hexes. Where the guide's rows would
 // change the distance between two triangles by more than the second number, in sizes, they do not fit.
-constexpr double guide_weight = 5, most_change = 0.25;
-constexpr fields::DiffusionLimits limits{200, 1e-3};
+constexpr double guide_weight = 5, most_guide_change = 0.25;
+constexpr fields::DiffusionLimits diffusion_limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small models
 // Both sides of a wall agree again after these.
 constexpr int sweeps_after_joining = 30;
@@ -190,7 +190,7 @@ void LatticeMaker::measure_distances() {
     const std::int32_t f = geometry::triangle_of(h);
     for (std::size_t k = 0; k < 2; ++k) {
       const double between = coordinates[f][k] + jumps[h][k] - link.seen_along(coordinates[link.neighbour], k);
-      if (std::abs(between - link.distance[k]) < most_change) link.distance[k] = between;
+      if (std::abs(between - link.distance[k]) < most_guide_change) link.distance[k] = between;
     }
   });
 }
@@ -209,7 +209,7 @@ void LatticeMaker::diffuse() {
     return view_of_neighbours(phases, static_cast<std::int32_t>(f));
   };
   phases_ = fields::diffused<2>(
-      targets_, limits, [&](const auto& body) { for_each_triangle(body); }, diagonal, view);
+      targets_, diffusion_limits, [&](const auto& body) { for_each_triangle(body); }, diagonal, view);
 }
 
 // Triangles too far from any feature take over the numbers of a neighbour, turned by the distance to it.

@@ -11,7 +11,7 @@ namespace {
 // Against all links of the node together. From 0.3 to 3, the share of the volume in hexes differs by 0.2 %.
 constexpr double suggestion_weight = 0.3;
 constexpr double normal_weight = 3;
-constexpr int smoothing_sweeps = 10;
+constexpr int frame_sweeps = 10;
 // The weight of a node's own frame against its links when frames are smoothed: plain means of neighbours may oscillate.
 constexpr double inertia = 0.5;
 
@@ -44,7 +44,7 @@ class FrameSolver {
     prepare();
     diffuse();
     project();
-    for (int i = 0; i < smoothing_sweeps; ++i) sweep();
+    for (int i = 0; i < frame_sweeps; ++i) sweep();
     return std::move(frames_);
   }
 
