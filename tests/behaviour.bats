@@ -308,7 +308,7 @@ on_terminal() {
     assert_fails_with 2 "$tool: --memory: " $tool "$STAGES/$tool.in" --memory=-1
     assert_fails_with 2 "$tool: --memory: expected at least 1M, found 8 bytes; 8G are 8 gibibytes" \
       $tool "$STAGES/$tool.in" --memory 8
-    assert_fails_with 1 "$tool: .*memory" $tool $(limited $tool) -q "$STAGES/$tool.in" -o out.tar --memory 1M
+    assert_fails_with 1 "^$tool: .*memory" $tool $(limited $tool) -q "$STAGES/$tool.in" -o out.tar --memory 1M
     assert [ ! -e out.tar ]
     $tool $(limited $tool) -q "$STAGES/$tool.in" -o limited.tar --memory 2G
     $tool $(limited $tool) -q "$STAGES/$tool.in" -o free.tar

@@ -235,7 +235,7 @@ END
 @test "the examples in formats/README.md are what we write" {
   extract_examples
   cp tet.msh source.msh
-  for format in mesh msh msh22 vtk inp su2 bdf; do
+  for format in mesh msh msh22 vtk vtu inp su2 bdf; do
     mesh_convert source.msh "$format" "written.$format"
     assert_same_bytes "tet.$format" "written.$format"
   done
@@ -244,7 +244,7 @@ END
 @test "the examples in formats/README.md are read, all as the same mesh" {
   extract_examples
   mesh_convert tet.msh msh22 expected
-  for name in tet.mesh tet.msh22 tet.vtk tet-ascii.vtu tet.node tet.ele tet.bdf tet.inp; do
+  for name in tet.mesh tet.msh22 tet.vtk tet.vtu tet-ascii.vtu tet.node tet.ele tet.bdf tet.inp; do
     mesh_convert "$name" msh22 found
     assert_same_bytes expected found || fail "$name"
   done

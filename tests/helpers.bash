@@ -11,7 +11,6 @@ DATA="$HEXPIPE_SOURCE/tests/data"
 CHECKERS="$HEXPIPE_SOURCE/tests/checkers"
 # Debian's python3, for which the apt packages numpy, meshio and vtk are installed.
 PYTHON=/usr/bin/python3
-export PYTHONPATH="$HEXPIPE_SOURCE/tests/python${PYTHONPATH:+:$PYTHONPATH}"
 export PATH="$HEXPIPE_BIN:$PATH"
 
 # An empty directory: Bats keeps files of its own in BATS_TEST_TMPDIR.

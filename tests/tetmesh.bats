@@ -155,7 +155,7 @@ for block, tags in zip(mesh.cells, mesh.cell_data["medit:ref"]):
         for tet, tag in zip(block.data, tags):
             p = mesh.points[tet]
             volumes[int(tag)] = volumes.get(int(tag), 0) + np.linalg.det(p[1:] - p[0]) / 6
-print({tag: round(v, 9) for tag, v in sorted(volumes.items())})
+print({tag: round(float(v), 9) for tag, v in sorted(volumes.items())})
 PYTHON
 }
 

@@ -18,7 +18,7 @@ bool looks_like_vtu(std::string_view text);
 // if not null. The XML is parsed in place, which consumes the text. Throws FormatError or DataError.
 MixedMesh read_vtu(std::string text, std::string_view file, std::vector<std::string>* warnings = nullptr);
 
-// Writes appended raw data with 64-bit headers, in this machine's byte order.
+// Writes inline base64 with 64-bit headers, in this machine's byte order.
 void write_vtu(const MixedMesh& mesh, Output& output);
 
 // Writes a piece of a mesh that is spread over several files, with the number of each point in the whole mesh.

@@ -94,7 +94,10 @@ class VtuReader {
     pugi::xml_parse_result result;
     const std::size_t appended = text_.find("<AppendedData");
     find_line_ends(std::string_view(text_).substr(0, text_.find('_', std::min(appended, text_.size()))));
+    bool ends_in_tag = true;
     if (appended == std::string::npos) {
+      const std::size_t last = text_.find_last_not_of(" \t\r\n");
+      ends_in_tag = last != std::string::npos && text_[last] == '>';
       result = document_.load_buffer_inplace(text_.data(), text_.size(), flags, pugi::encoding_utf8);
     } else {
       const std::string head = text_.substr(0, find_appended_data(appended)) + "</AppendedData></VTKFile>";
@@ -103,6 +106,9 @@ class VtuReader {
     if (!result)
       throw FormatError(file_, line_at(result.offset),
                         fmt::format("expected well-formed XML, found: {}", result.description()));
+    // The parser takes text and elements behind the only one that XML allows.
+    if (!ends_in_tag || document_.child("VTKFile").next_sibling())
+      throw DataError::at(file_, "expected nothing after </VTKFile>");
   }
 
   // The line ends are searched before parsing: parsing in place ends names and values with zeros where line ends were.

@@ -9,6 +9,7 @@
 #include "formats/meshes/mesh_blocks.hpp"
 #include "formats/meshes/vtk_grid.hpp"
 #include "formats/meshes/vtu.hpp"
+#include "formats/streams/base64.hpp"
 #include "formats/streams/number_writer.hpp"
 
 namespace hexpipe::formats {
@@ -18,7 +19,7 @@ struct DataArray {
   std::string_view name, type;
   int components;
   std::uint64_t bytes;
-  std::function<void(Output&)> write;
+  std::function<void(Base64Writer&)> write;
 };
 
 struct Section {
@@ -33,7 +34,7 @@ constexpr const char* byte_order = std::endian::native == std::endian::little ? 
 template <class T>
 DataArray array_of(std::string_view name, std::string_view type, const std::vector<T>& numbers) {
   return {name, type, 1, numbers.size() * sizeof(T),
-          [&numbers](Output& output) { write_array_bytes(output, numbers); }};
+          [&numbers](Base64Writer& output) { write_array_bytes(output, numbers); }};
 }
 
 Section points_of(const MixedMesh& mesh) {
@@ -48,20 +49,20 @@ Section cells_of(const MixedMesh& mesh) {
   std::uint64_t corners = 0;
   for_each_block(
       mesh, [&](const ElementNames& names, const auto& block) { corners += block.size() * lister.count(names.vtk); });
-  const auto write_connectivity = [&mesh, lister](Output& output) mutable {
+  const auto write_connectivity = [&mesh, lister](Base64Writer& output) mutable {
     for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
       for (std::size_t i = 0; i < block.size(); ++i)
         for (const Vertex v : lister.nodes(names.vtk, block, i)) write_bytes(output, v);
     });
   };
-  const auto write_offsets = [&mesh, lister](Output& output) {
+  const auto write_offsets = [&mesh, lister](Base64Writer& output) {
     std::int64_t end = 0;
     for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
       for (std::size_t i = 0; i < block.size(); ++i)
         write_bytes(output, end += static_cast<std::int64_t>(lister.count(names.vtk)));
     });
   };
-  const auto write_types = [&mesh](Output& output) {
+  const auto write_types = [&mesh](Base64Writer& output) {
     for_each_block(mesh, [&](const ElementNames& names, const auto& block) {
       for (std::size_t i = 0; i < block.size(); ++i) write_bytes(output, names.vtk_of(mesh));
     });
@@ -104,18 +105,21 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-// Every array follows its length in the appended data, the last one of the document first: meshio rewrites offsets
-// while it looks arrays up by them, and in this order it cannot mistake one for another. `offset` counts from the mark
-// '_'. It comes in as the end of this section's data and goes out as their beginning.
-void write_section(const Section& section, std::uint64_t& offset, Output& output) {
+// Every array stands in its own element, its length and its numbers in one run of base64. The meshio of Debian 13
+// cannot read data that are appended behind all elements: its Python does not stop at the padding of an array.
+void write_section(const Section& section, Output& output) {
   output.print("      <{}{}>\n", section.name, section.attributes);
   for (const DataArray& array : section.arrays) {
-    offset -= sizeof array.bytes + array.bytes;
     // An array has one component unless it says otherwise; meshio makes a column of an array that says 1.
     const std::string components =
         array.components == 1 ? "" : fmt::format("NumberOfComponents=\"{}\" ", array.components);
-    output.print("        <DataArray type=\"{}\" Name=\"{}\" {}format=\"appended\" offset=\"{}\"/>\n", array.type,
-                 array.name, components, offset);
+    output.print("        <DataArray type=\"{}\" Name=\"{}\" {}format=\"binary\">\n", array.type, array.name,
+                 components);
+    Base64Writer data(output);
+    write_bytes(data, array.bytes);
+    array.write(data);
+    data.end();
+    output.print("\n        </DataArray>\n");
   }
   output.print("      </{}>\n", section.name);
 }
@@ -126,17 +130,8 @@ void write_sections(const MixedMesh& mesh, const std::vector<Section>& sections,
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n"
       "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
       byte_order, mesh.points.size(), element_count(mesh));
-  std::uint64_t offset = 0;
-  for (const Section& section : sections)
-    for (const DataArray& array : section.arrays) offset += sizeof array.bytes + array.bytes;
-  for (const Section& section : sections) write_section(section, offset, output);
-  output.print("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
-  for (auto section = sections.rbegin(); section != sections.rend(); ++section)
-    for (auto array = section->arrays.rbegin(); array != section->arrays.rend(); ++array) {
-      write_bytes(output, array->bytes);
-      array->write(output);
-    }
-  output.print("\n  </AppendedData>\n</VTKFile>\n");
+  for (const Section& section : sections) write_section(section, output);
+  output.print("    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n");
 }
 
 }  // namespace

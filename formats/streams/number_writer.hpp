@@ -43,14 +43,15 @@ class LineWriter {
   bool in_line_ = false;
 };
 
-template <class T>
-void write_bytes(Output& output, const T& number) {
+// `output` is an Output, or something that takes bytes as it does.
+template <class Bytes, class T>
+void write_bytes(Bytes& output, const T& number) {
   static_assert(std::is_trivially_copyable_v<T>);
   output.write({reinterpret_cast<const char*>(&number), sizeof number});
 }
 
-template <class Range>
-void write_array_bytes(Output& output, const Range& numbers) {
+template <class Bytes, class Range>
+void write_array_bytes(Bytes& output, const Range& numbers) {
   output.write({reinterpret_cast<const char*>(std::data(numbers)), std::size(numbers) * sizeof *std::data(numbers)});
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "formats/meshes/vtu.hpp"
+#include "formats/streams/base64.hpp"
 #include "formats/streams/scalar_bytes.hpp"
 #include "sample_meshes.hpp"
 
@@ -45,19 +46,6 @@ constexpr std::string_view one_tet = R"(<?xml version="1.0"?>
 std::string changed(std::string_view from, std::string_view to) {
   std::string text(one_tet);
   return text.replace(text.find(from), from.size(), to);
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
 }
 
 std::string deflated(std::string_view bytes) {
@@ -137,6 +125,33 @@ std::vector<Layout> all_layouts() {
     if (layout.appended || layout.as_base64) layouts.push_back(layout);
   }
   return layouts;
+}
+
+// The examples of RFC 4648.
+TEST(Base64, PadsWhatIsNoTriple) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfb"), "//77");
+}
+
+TEST(Base64, WritesPiecesOfAnyLengthAsOneRun) {
+  Random random(1);
+  std::string bytes;
+  for (int i = 0; i < 300000; ++i) bytes += static_cast<char>(random.below(256));
+  for (const std::size_t most : {std::size_t{3}, std::size_t{1000}, std::size_t{200000}}) {
+    const std::string written = hexpipe::testing::written_bytes([&](Output& output) {
+      Base64Writer writer(output);
+      for (std::size_t at = 0, count = 0; at < bytes.size(); at += count) {
+        count = 1 + random.below(most);
+        writer.write(std::string_view(bytes).substr(at, count));
+      }
+      writer.end();
+    });
+    EXPECT_TRUE(written == base64(bytes)) << most;
+  }
 }
 
 TEST(Vtu, ReadsText) {

@@ -54,11 +54,10 @@ nlohmann::ordered_json statistics_of(const candidates::FindhexResult& result) {
   json["triangulated_quads"] = result.triangulated_quads;
   json["candidates"] = result.candidates.size();
   for (const candidates::KindCounts& kind : result.counts) {
-    auto& of_kind = json[plural(kind.kind)];
-    of_kind["candidates"] = kind.counts.accepted();
-    of_kind["complete"] = kind.counts.complete;
-    of_kind["rejected"]["rule 4, not valid"] = kind.counts.invalid;
-    for (const auto& [verdict, why] : rejections) of_kind["rejected"][why] = count_of(kind.counts, verdict);
+    nlohmann::ordered_json rejected{{"rule 4, not valid", kind.counts.invalid}};
+    for (const auto& [verdict, why] : rejections) rejected[why] = count_of(kind.counts, verdict);
+    json[plural(kind.kind)] = {
+        {"candidates", kind.counts.accepted()}, {"complete", kind.counts.complete}, {"rejected", std::move(rejected)}};
   }
   return json;
 }

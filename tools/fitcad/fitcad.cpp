@@ -96,7 +96,7 @@ nlohmann::ordered_json to_json(const std::array<KindQuality, 4>& cells) {
   double volume = 0;
   std::int64_t count = 0;
   for (const KindQuality& of : cells) volume += of.volume, count += of.count;
-  nlohmann::ordered_json json;
+  auto json = nlohmann::ordered_json::object();
   for (const KindQuality& of : cells)
     json[name_of(of.kind)] = {
         {"count", of.count},

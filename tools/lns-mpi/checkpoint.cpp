@@ -203,7 +203,7 @@ void Checkpoint::write(const LocalGraph& local, const RoundsProgress& progress,
   });
   ranks_.together([&] {
     if (!ranks_.is_first()) return;
-    nlohmann::ordered_json title;
+    auto title = nlohmann::ordered_json::object();
     visit_numbers(progress, [&](const char* name, std::int64_t number) { title[name] = number; });
     title["ranks"] = ranks_.count();
     title["blocks"] = local.owners.blocks();

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "common/mwis/lns_options.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/messages.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
@@ -14,8 +15,13 @@ using namespace hexpipe::lns_mpi;
 
 namespace {
 
+// Without memory the libraries that start MPI end the process in their own words and with their own exit codes. Those
+// of Open MPI 5 take 34 MiB.
+constexpr std::uint64_t bytes_to_start = 40 << 20;
+
 // An error that all ranks throw together ends them one by one; any other error ends all of them at once.
 void run_on_all_ranks(RunContext& context, const LnsMpiOptions& options) {
+  expect_memory(1, bytes_to_start, "MPI");
   Ranks ranks;
   try {
     run_job(ranks, context, options);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <new>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -63,6 +64,9 @@ class Ranks {
     } catch (const UsageError& exception) {
       failure = Failure::usage;
       error = exception.what();
+    } catch (const std::bad_alloc&) {
+      failure = Failure::data;
+      error = "not enough memory";
     } catch (const std::exception& exception) {
       failure = Failure::data;
       error = exception.what();

@@ -66,6 +66,7 @@ std::vector<std::string> MergedHistory::take_shares(PartReaders& parts) {
   nlohmann::ordered_json entry;
   for (PartReader& part : parts) {
     nlohmann::ordered_json other = pipeline::read_history_entry(part.bundle());
+    other.emplace("options", nlohmann::ordered_json::object());
     nlohmann::ordered_json& options = other["options"];
     const auto share = options.find("part");
     shares.push_back(share != options.end() && share->is_string() ? share->get<std::string>() : "");

@@ -1,5 +1,7 @@
 #include "tools/tetmesh/statistics.hpp"
 
+#include <utility>
+
 namespace hexpipe::tetmesh {
 
 StepSeconds& StepSeconds::operator+=(const StepSeconds& other) {
@@ -52,9 +54,10 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
                         {"changes", s.improved->changes},
                         {"estimated_hex_share_before", s.improved->share_before},
                         {"estimated_hex_share", s.improved->share}};
+  auto tried = nlohmann::ordered_json::array();
   for (const auto& [size, share] : s.tried)
-    json["tried"].push_back(
-        {{"size", size}, {"estimated_hex_share", share ? nlohmann::ordered_json(*share) : nullptr}});
+    tried.push_back({{"size", size}, {"estimated_hex_share", share ? nlohmann::ordered_json(*share) : nullptr}});
+  if (!tried.empty()) json["tried"] = std::move(tried);
   return json;
 }
 

@@ -7,30 +7,19 @@
 
 #include "common/run/error.hpp"
 #include "common/run/progress.hpp"
+#include "formats/streams/base64.hpp"
 #include "tools/viewmesh/camera.hpp"
 #include "tools/viewmesh/resources.hpp"
 
 namespace hexpipe::viewmesh {
 namespace {
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto at = [&](std::size_t k) { return i + k < bytes.size() ? std::uint32_t{bytes[i + k]} : 0; };
-    const std::uint32_t word = at(0) << 16 | at(1) << 8 | at(2);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= bytes.size() - i ? digits[word >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 std::string compressed(const std::vector<std::uint8_t>& bytes) {
   std::vector<std::uint8_t> packed(compressBound(bytes.size()));
   uLongf size = packed.size();
   if (compress2(packed.data(), &size, bytes.data(), bytes.size(), 6) != Z_OK) throw std::bad_alloc();
   packed.resize(size);
-  return base64(packed);
+  return formats::base64({reinterpret_cast<const char*>(packed.data()), packed.size()});
 }
 
 template <class Word>
