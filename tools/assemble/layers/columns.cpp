@@ -66,8 +66,20 @@ double share_of_height(int level, int layers, double growth) {
   return std::expm1(level * std::log(growth)) / std::expm1(layers * std::log(growth));
 }
 
+LinePoints::LinePoints(const Walls& walls, const LinePlan& plan, const GuideSurface& guides, double growth)
+    : walls_(walls), plan_(plan), guides_(guides) {
+  for (const WallSide& side : walls.sides()) {
+    const int layers = side.layers;
+    if (layers >= static_cast<int>(shares_.size())) shares_.resize(static_cast<std::size_t>(layers) + 1);
+    std::vector<double>& shares = shares_[layers];
+    if (!shares.empty()) continue;
+    for (int level = 0; level <= layers; ++level) shares.push_back(share_of_height(level, layers, growth));
+  }
+}
+
 double LinePoints::lowest_share(int layers) const {
-  return std::min(share_of_height(1, layers, growth_), 1 - share_of_height(layers - 1, layers, growth_));
+  const std::vector<double>& shares = shares_[layers];
+  return std::min(shares[1], 1 - shares[layers - 1]);
 }
 
 Vec3 LinePoints::at(std::span<const Vec3> points, const LinePoint& point) const {
@@ -75,7 +87,7 @@ Vec3 LinePoints::at(std::span<const Vec3> points, const LinePoint& point) const 
   const Vec3& foot = points[line.foot];
   if (line.tip == no_index || point.level == 0) return foot;
   if (point.level == line.layers) return points[line.tip];
-  const Vec3 straight = foot + (points[line.tip] - foot) * share_of_height(point.level, line.layers, growth_);
+  const Vec3 straight = foot + (points[line.tip] - foot) * shares_[line.layers][point.level];
   return guides_.nearest(plan_.freedoms[point.line].tags, straight);
 }
 

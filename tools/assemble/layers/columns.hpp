@@ -40,8 +40,7 @@ std::optional<LayerFacet> layer_facet(const Walls& walls, const WallSide& side, 
 class LinePoints {
  public:
   // All arguments outlive this. `growth`: each layer is higher than the one before by this factor.
-  LinePoints(const Walls& walls, const LinePlan& plan, const GuideSurface& guides, double growth)
-      : walls_(walls), plan_(plan), guides_(guides), growth_(growth) {}
+  LinePoints(const Walls& walls, const LinePlan& plan, const GuideSurface& guides, double growth);
 
   Vec3 at(std::span<const Vec3> points, const LinePoint& point) const;
   // That of the lowest of `layers` layers in the length of a line.
@@ -53,7 +52,8 @@ class LinePoints {
   const Walls& walls_;
   const LinePlan& plan_;
   const GuideSurface& guides_;
-  double growth_;
+  // By number of layers and level: share_of_height(). Asked for far too often to be computed each time.
+  std::vector<std::vector<double>> shares_;
 };
 
 // The share of the height of `layers` layers that the first `level` have.
