@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
                                                     {Geometry::TETRAHEDRON, "tet"}};
   for (int i = 0; i < mesh.GetNE(); ++i) {
     ++kinds[names.at(mesh.GetElementGeometry(i))];
-    // Not GetElementVolume(): its rule is too low for pyramids on a warped base.
+    // Not GetElementVolume(): its rule is too low for hexes and prisms with warped faces.
     volumes[mesh.GetAttribute(i)] += size_of(*mesh.GetElementTransformation(i), 10);
   }
   for (int i = 0; i < mesh.GetNBE(); ++i)
