@@ -63,19 +63,19 @@ PYTHON
 # keeps_tets FORMAT: written and read again, a mesh of tets is the same, in the same order, with its names.
 keeps_tets() {
   lattice_of_two_regions
-  mesh_convert tets.mesh "$1" "out.$1" '{"regions": {"5": "steel"}}'
-  mesh_convert "out.$1" mesh back.mesh
+  mesh_convert tets.mesh "$1" "mesh.$1" '{"regions": {"5": "steel"}}'
+  mesh_convert "mesh.$1" mesh back.mesh
   mesh_convert tets.mesh mesh expected.mesh
   sed -i '/Triangles/,$d' expected.mesh back.mesh
   assert_same_bytes expected.mesh back.mesh
-  findhex "out.$1" -o found.tar
+  findhex "mesh.$1" -o found.tar
   run tar xOf found.tar names.json
   assert_output '{"regions":{"5":"steel"}}'
-  # By way of a pipe, in and out.
+  # By way of a pipe, in and out. A mesh in MED has the name `mesh` there.
   mesh_convert tets.mesh "$1" - '{"regions": {"5": "steel"}}' | cat >piped
-  assert_same_bytes "out.$1" piped
+  assert_same_bytes "mesh.$1" piped
   mesh_convert - mesh from_pipe.mesh <piped
-  mesh_convert "out.$1" mesh back.mesh
+  mesh_convert "mesh.$1" mesh back.mesh
   assert_same_bytes back.mesh from_pipe.mesh
 }
 
@@ -206,7 +206,7 @@ print(points.tolist(), cells.tolist(), family_of_cell, groups[family_of_cell[0]]
   need exo
   keeps_tets exo
   # Also in the other forms of NetCDF.
-  nccopy -k nc4 -d 1 out.exo out.nc4
+  nccopy -k nc4 -d 1 mesh.exo out.nc4
   mesh_convert out.nc4 mesh from_hdf5.mesh
   assert_same_bytes back.mesh from_hdf5.mesh
   $PYTHON "$DATA/lattices/lattice.py" kuhn 2 >lattice.mesh
@@ -273,9 +273,27 @@ PYTHON
 @test "MED files are read as they were written, and have the same bytes at any time" {
   need med
   keeps_tets med
-  await is_a_second_old out.med
-  mesh_convert tets.mesh med later.med '{"regions": {"5": "steel"}}'
-  assert_same_bytes out.med later.med
+  await is_a_second_old mesh.med
+  mkdir later
+  mesh_convert tets.mesh med later/mesh.med '{"regions": {"5": "steel"}}'
+  assert_same_bytes mesh.med later/mesh.med
+}
+
+@test "a mesh in MED has the name of its file, by which FreeCAD looks for it" {
+  need med
+  source_mesh
+  local name
+  for name in bracket bracket.v2; do
+    mesh_convert source.msh med $name.med
+    mdump4 $name.med NODALE FULL_INTERLACE 0 >dump.txt
+    grep -q "$name" dump.txt
+  done
+  mesh_convert source.msh med - >piped.med
+  mdump4 piped.med NODALE FULL_INTERLACE 0 | grep -q 'mesh'
+  # At most 64 bytes of it.
+  name=$(printf 'n%.0s' {1..70})
+  mesh_convert source.msh med $name.med
+  groups med $name.med >/dev/null
 }
 
 @test "MED files of other programs are read as far as they are meshes of first order" {

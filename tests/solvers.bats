@@ -228,7 +228,7 @@ PYTHON
   assert_same_bytes b.inp c.inp
   # The other commands of docs/solvers.md.
   grep -oE 'assemble stages.tar --solver [a-z0-9-]+ -o part[.][a-z0-9]+' "$HEXPIPE_SOURCE/docs/solvers.md" >commands
-  assert_equal "$(wc -l <commands)" 6
+  assert_equal "$(wc -l <commands)" 8
   cp solved.tar stages.tar
   while read -r command; do
     rm -f part.*
@@ -253,6 +253,33 @@ PYTHON
   assemble solved.tar -o one.tar
   assemble solved.tar --no-facets -o two.tar
   assert_same_bytes one.tar two.tar
+}
+
+@test "for deal.II no facet lies between two cells" {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn 2 >lattice.mesh
+  $PYTHON "$DATA/lattices/two_bodies.py" lattice.mesh 2 >bodies.mesh
+  findhex --mesh bodies.mesh | buildgraph | initsol --iterations 0 -o bodies.tar
+  local order options
+  for order in 1 2; do
+    options="--order $order"
+    assemble bodies.tar $options -o all.msh 2>/dev/null
+    run_apart assemble bodies.tar $options --solver dealii -o outer.msh
+    assert_success
+    [[ "$stderr" == *"4 facets that are not on the boundary are left out: the solver takes none"* ]]
+    "$PYTHON" - <<'PYTHON' 2>/dev/null
+import meshio
+def elements(path, kinds):
+    mesh = meshio.read(path)
+    return sorted(mesh.points[element].tolist() for block in mesh.cells if block.type.startswith(kinds) for element in block.data)
+cells = ("hexahedron", "wedge", "pyramid", "tetra")
+assert elements("all.msh", cells) == elements("outer.msh", cells) != []
+inner = lambda facet: all(x == 1 for x, y, z in facet)
+facets = elements("all.msh", ("triangle", "quad"))
+assert elements("outer.msh", ("triangle", "quad")) == [facet for facet in facets if not inner(facet)]
+assert sum(map(inner, facets)) == 4
+PYTHON
+  done
+  assert_fails_with 2 "solver dealii goes with msh or msh-binary, found vtu" assemble bodies.tar --solver dealii -o a.vtu
 }
 
 @test "a prism that gmshToFoam would turn round goes back to its tets" {

@@ -86,11 +86,11 @@ void declare_mesh_output(CLI::App& app, Role product, MeshOptions& mesh) {
       app.add_option("--solver", mesh.solver,
                      "Write pyramids, hexes and facets in the way that suits this program; calculix: pyramids "
                      "collapsed, C3D8I; abaqus: C3D8I; openfoam, su2, nastran, moose: their format is checked; "
-                     "code-aster: names of 24 characters"))
+                     "code-aster: names of 24 characters; dealii: no facets between regions"))
       ->group(product == Role::result ? group::first : group::output)
       ->type_name("NAME")
-      ->check(CLI::IsMember(
-          std::vector<std::string>{"calculix", "abaqus", "openfoam", "su2", "nastran", "moose", "code-aster"}));
+      ->check(CLI::IsMember(std::vector<std::string>{"calculix", "abaqus", "openfoam", "su2", "nastran", "moose",
+                                                     "code-aster", "dealii"}));
   outside_history(
       app.add_option(
           "--pyramids", mesh.pyramids,

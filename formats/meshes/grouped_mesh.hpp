@@ -55,6 +55,7 @@ struct ElementGroup {
 
 // Groups of one region have one number and one name. In the order of kinds, then of numbers.
 struct GroupedMesh {
+  std::string name = "mesh";  // of formats whose meshes have names
   std::vector<Vec3> points;
   std::vector<ElementGroup> cells, facets;
   bool second_order = false, full = false;  // as in SecondOrder

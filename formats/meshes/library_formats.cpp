@@ -99,7 +99,10 @@ void write_med(const MixedMesh& mesh, const MeshWriting& writing, Output& output
   check_numbers(std::max(mesh.points.size(), mesh.cell_count()), most_of_31_bits, output.name());
   GroupRules rules = med_rules;
   if (writing.longest_name > 0) rules.names.longest = std::min(rules.names.longest, writing.longest_name);
-  write_by_library("med", grouped(mesh, writing, rules, output.name()), output);
+  GroupedMesh groups = grouped(mesh, writing, rules, output.name());
+  // FreeCAD finds no mesh of another name than the file's, and says nothing.
+  if (output.is_named_file()) groups.name = std::filesystem::path(output.name()).stem().string();
+  write_by_library("med", groups, output);
 }
 
 void write_cgns(const MixedMesh& mesh, const MeshWriting& writing, Output& output) {

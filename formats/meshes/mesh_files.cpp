@@ -6,6 +6,7 @@
 #include "common/curved/curved_validity.hpp"
 #include "common/run/error.hpp"
 #include "formats/meshes/abaqus.hpp"
+#include "formats/meshes/facet_owners.hpp"
 #include "formats/meshes/library_formats.hpp"
 #include "formats/meshes/medit.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
@@ -130,6 +131,34 @@ void split_pyramids(Prepared& at) {
     at.writing.say(fmt::format("{} of these tets are bent too much: they may not be valid everywhere", doubtful));
 }
 
+// Keeps the facets of the boundary; `nodes` are those of second order, or null. Returns how many go.
+template <class Block>
+std::size_t keep_outer(Block& block, const std::vector<FacetOwner>& owners, std::vector<Vertex>* nodes) {
+  const std::size_t count = block.size(), nodes_of_each = nodes == nullptr || count == 0 ? 0 : nodes->size() / count;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (owners[i].cells > 1) continue;
+    block.cells[kept] = block.cells[i];
+    block.tags[kept] = block.tags[i];
+    for (std::size_t k = 0; k < nodes_of_each; ++k)
+      (*nodes)[kept * nodes_of_each + k] = (*nodes)[i * nodes_of_each + k];
+    ++kept;
+  }
+  block.cells.resize(kept);
+  block.tags.resize(kept);
+  if (nodes != nullptr) nodes->resize(kept * nodes_of_each);
+  return count - kept;
+}
+
+void leave_out_inner_facets(Prepared& at) {
+  const FacetOwners owners = find_facet_owners(at.mesh);
+  SecondOrder* const order = at.mesh.second_order ? &*at.mesh.second_order : nullptr;
+  const std::size_t inner = keep_outer(at.mesh.triangles, owners.triangles, order ? &order->triangles : nullptr) +
+                            keep_outer(at.mesh.quads, owners.quads, order ? &order->quads : nullptr);
+  if (inner > 0)
+    at.writing.say(fmt::format("{} facets that are not on the boundary are left out: the solver takes none", inner));
+}
+
 // The mesh without what the options leave out. Reports what that costs.
 Prepared with_options(const MixedMesh& mesh, const MeshWriting& writing) {
   Prepared at{mesh, writing};
@@ -137,6 +166,8 @@ Prepared with_options(const MixedMesh& mesh, const MeshWriting& writing) {
   if (!writing.facets) {
     at.mesh.triangles = {}, at.mesh.quads = {};
     if (at.mesh.second_order) at.mesh.second_order->triangles.clear(), at.mesh.second_order->quads.clear();
+  } else if (!writing.inner_facets) {
+    leave_out_inner_facets(at);
   }
   return at;
 }
@@ -158,7 +189,7 @@ void write_mixed_mesh(const MixedMesh& mesh, std::string_view format, Output& ou
     if (mesh.second_order && mesh.second_order->full && mesh.pyramids.size() > 0 && is_vtk_or_med)
       writing.say(
           fmt::format("{} pyramids are written with 13 nodes: the format has none of 14", mesh.pyramids.size()));
-    if (writing.facets && writing.form_of_pyramids(mesh) == PyramidForm::keep)
+    if (writing.facets && writing.inner_facets && writing.form_of_pyramids(mesh) == PyramidForm::keep)
       return known.write(mesh, writing, output);
     const Prepared prepared = with_options(mesh, writing);
     return known.write(prepared.mesh, prepared.writing, output);

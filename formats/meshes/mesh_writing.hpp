@@ -31,7 +31,8 @@ struct MeshWriting {
   GroupNames names{};
   PyramidForm pyramids = PyramidForm::keep;
   PyramidForm pyramids_of_second_order = PyramidForm::keep;
-  bool facets = true;                // false: cells alone, for readers that take no facets among them
+  bool facets = true;        // false: cells alone, for readers that take no facets among them
+  bool inner_facets = true;  // false: no facets between two cells, for readers that take only those of the boundary
   std::string hex_element = "C3D8";  // Abaqus' type of hexes
   std::size_t longest_name = 0;      // of a group, where the solver takes less than the format holds; 0: it does not
   std::vector<TiedNode> tied{};      // in the mesh: what with_split_pyramids left between tets and others

@@ -18,6 +18,7 @@ struct Solver {
   PyramidForm pyramids;
   const char* hex_element;
   std::size_t longest_name = 0;
+  bool inner_facets = true;
 };
 
 const std::vector<Solver>& solvers() {
@@ -30,6 +31,8 @@ const std::vector<Solver>& solvers() {
       {"nastran", {"bdf", "nas"}, PyramidForm::keep, "C3D8"},
       {"moose", {"e", "exo"}, PyramidForm::keep, "C3D8"},
       {"code-aster", {"med"}, PyramidForm::keep, "C3D8", 24},
+      // It takes a facet between two cells for a mistake, and stops.
+      {"dealii", {"msh", "msh-binary"}, PyramidForm::keep, "C3D8", 0, false},
   };
   return list;
 }
@@ -61,6 +64,7 @@ MeshWriting mesh_writing(const MeshOptions& options, std::string_view format) {
     writing.pyramids = solver.pyramids;
     writing.hex_element = solver.hex_element;
     writing.longest_name = solver.longest_name;
+    writing.inner_facets = solver.inner_facets;
   }
   if (options.pyramids == "keep") writing.pyramids = PyramidForm::keep;
   if (options.pyramids == "collapsed") writing.pyramids = PyramidForm::collapsed;

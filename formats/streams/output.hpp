@@ -27,6 +27,8 @@ class Output {
   Output& operator=(const Output&) = delete;
 
   const std::string& name() const { return name_; }
+  // Whether it becomes a file of this name, rather than bytes in a pipe.
+  bool is_named_file() const { return !path_.empty(); }
   // Throws DataError when the disk is full or the reader has gone.
   void write(std::string_view bytes);
   template <class... Args>

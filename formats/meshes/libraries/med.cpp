@@ -22,8 +22,6 @@
 namespace hexpipe::formats {
 namespace {
 
-constexpr const char* mesh_name = "mesh";
-
 // Corner i of MED's element is corner order[i] of ours: MED's cells are seen from the other side.
 struct MedKind {
   std::uint8_t vtk;
@@ -86,7 +84,10 @@ std::array<char, length + 1> field(const std::string& text) {
 class MedWriter {
  public:
   MedWriter(const GroupedMesh& mesh, const std::string& path)
-      : mesh_(mesh), file_(MEDfileOpen(path.c_str(), MED_ACC_CREAT)), id_(file_.id()) {
+      : mesh_(mesh),
+        mesh_name_(field<MED_NAME_SIZE>(mesh.name)),
+        file_(MEDfileOpen(path.c_str(), MED_ACC_CREAT)),
+        id_(file_.id()) {
     check(static_cast<med_err>(std::min<med_idt>(id_, 0)), "creating the file");
   }
 
@@ -106,8 +107,8 @@ class MedWriter {
   void write_mesh() {
     std::string axes, units(3 * MED_SNAME_SIZE, ' ');
     for (const char axis : {'x', 'y', 'z'}) axes += axis + std::string(MED_SNAME_SIZE - 1, ' ');
-    check(MEDmeshCr(id_, mesh_name, 3, 3, MED_UNSTRUCTURED_MESH, "hexpipe mesh", "", MED_SORT_DTIT, MED_CARTESIAN,
-                    axes.c_str(), units.c_str()),
+    check(MEDmeshCr(id_, mesh_name_.data(), 3, 3, MED_UNSTRUCTURED_MESH, "hexpipe mesh", "", MED_SORT_DTIT,
+                    MED_CARTESIAN, axes.c_str(), units.c_str()),
           "writing the mesh");
   }
 
@@ -116,20 +117,21 @@ class MedWriter {
     coordinates.reserve(3 * mesh_.points.size());
     for (const Vec3& p : mesh_.points) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
     if (!coordinates.empty())
-      check(MEDmeshNodeCoordinateWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_FULL_INTERLACE,
+      check(MEDmeshNodeCoordinateWr(id_, mesh_name_.data(), MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_FULL_INTERLACE,
                                     static_cast<med_int>(mesh_.points.size()), coordinates.data()),
             "writing points");
   }
 
   // One for each group; those of elements have numbers below 0.
   void write_families() {
-    check(MEDfamilyCr(id_, mesh_name, MED_NO_NAME, 0, 0, MED_NO_GROUP), "writing families");
+    check(MEDfamilyCr(id_, mesh_name_.data(), MED_NO_NAME, 0, 0, MED_NO_GROUP), "writing families");
     std::set<std::int32_t> written;
     for (const auto* const groups : {&mesh_.facets, &mesh_.cells})
       for (const ElementGroup& group : *groups) {
         if (!written.insert(group.number).second) continue;
         const std::string name = "FAM_-" + std::to_string(group.number);
-        check(MEDfamilyCr(id_, mesh_name, name.c_str(), -group.number, 1, field<MED_LNAME_SIZE>(group.name).data()),
+        check(MEDfamilyCr(id_, mesh_name_.data(), name.c_str(), -group.number, 1,
+                          field<MED_LNAME_SIZE>(group.name).data()),
               "writing families");
       }
   }
@@ -164,14 +166,16 @@ class MedWriter {
     }
     const med_geometry_type type = type_of(kind, order.size());
     const auto count = static_cast<med_int>(elements.size());
-    check(MEDmeshElementConnectivityWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, type, MED_NODAL,
-                                       MED_FULL_INTERLACE, count, corners.data()),
+    check(MEDmeshElementConnectivityWr(id_, mesh_name_.data(), MED_NO_DT, MED_NO_IT, MED_UNDEF_DT, MED_CELL, type,
+                                       MED_NODAL, MED_FULL_INTERLACE, count, corners.data()),
           "writing elements");
-    check(MEDmeshEntityFamilyNumberWr(id_, mesh_name, MED_NO_DT, MED_NO_IT, MED_CELL, type, count, families.data()),
+    check(MEDmeshEntityFamilyNumberWr(id_, mesh_name_.data(), MED_NO_DT, MED_NO_IT, MED_CELL, type, count,
+                                      families.data()),
           "writing families of elements");
   }
 
   const GroupedMesh& mesh_;
+  std::array<char, MED_NAME_SIZE + 1> mesh_name_;
   MedFile file_;
   med_idt id_;
 };
