@@ -13,6 +13,7 @@
 #include "common/run/run_context.hpp"
 #include "formats/choice/cand.hpp"
 #include "formats/choice/dimacs.hpp"
+#include "formats/choice/graph_reading.hpp"
 #include "formats/choice/metis.hpp"
 #include "formats/choice/solution_file.hpp"
 #include "formats/meshes/mesh_files.hpp"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/run/error.hpp"
+#include "formats/choice/graph_reading.hpp"
 #include "random_graphs.hpp"
 #include "tests/unit/written_bytes.hpp"
 

@@ -122,7 +122,7 @@ TEST(RunTetgen, SurvivesSurfacesThatMakeTetgenAbort) {
   // Flat, and open: neither passes check_surface, both go wrong in TetGen's own ways.
   const SurfaceSoup flat =
       soup_of({{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}, {Vec3{2, 0, 0}, Vec3{3, 1, 0}, Vec3{2, 1, 0}}});
-  EXPECT_NE(run(flat).failure, "");
+  EXPECT_NE(tets_of(flat).failure, "");
   Facets facets = cube();
   facets.pop_back();
   const SurfaceSoup open = soup_of(facets);
@@ -132,7 +132,7 @@ TEST(RunTetgen, SurvivesSurfacesThatMakeTetgenAbort) {
 
 TEST(RunTetgen, GivesUpInTime) {
   const Surface surface = shells_of(sphere({0, 0, 0}, 1, 100));
-  EXPECT_THAT(run(surface, {}, 0.001).failure, HasSubstr("longer than --tetgen-timeout"));
+  EXPECT_THAT(tets_of(surface, {}, 0.001).failure, HasSubstr("longer than --tetgen-timeout"));
 }
 
 // A failure of the surface would be tried again in another order, or taken for a reason to keep another mesh.

@@ -27,7 +27,7 @@ Surface shells_of(const Facets& facets, ShellRule rule = ShellRule::oriented) {
   return find_shells(soup_of(facets), rule);
 }
 
-std::string error_of(const Facets& facets) {
+std::string shell_error_of(const Facets& facets) {
   try {
     shells_of(facets);
   } catch (const DataError& error) {
@@ -95,7 +95,7 @@ TEST(Shells, NestedTwiceAndThrice) {
 
 TEST(Shells, OtherRulesTurnTrianglesToTheirMaterial) {
   const Facets facets = joined(inverted(cube(0, 4)), cube(1));
-  EXPECT_THAT(error_of(facets),
+  EXPECT_THAT(shell_error_of(facets),
               HasSubstr("part: triangle 1: expected a shell that points outward, found 12 triangles"));
   const Surface with_hole = shells_of(facets, ShellRule::holes);
   EXPECT_NEAR(signed_volume(with_hole, 0), 64, 1e-12);
@@ -106,7 +106,7 @@ TEST(Shells, OtherRulesTurnTrianglesToTheirMaterial) {
 }
 
 TEST(Shells, AHoleInAHoleIsAnError) {
-  EXPECT_THAT(error_of(joined(joined(cube(0, 10), inverted(cube(1, 8))), inverted(cube(2, 6)))),
+  EXPECT_THAT(shell_error_of(joined(joined(cube(0, 10), inverted(cube(1, 8))), inverted(cube(2, 6)))),
               HasSubstr("part: triangle 25: expected a shell that points outward"));
 }
 
