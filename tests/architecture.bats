@@ -77,7 +77,7 @@ lines_behind() {
 is_shared() {
   local header=$1 rooms
   # The room of each file that includes it.
-  rooms=$(grep -rlF "#include \"$header\"" --include='*.[ch]pp' common formats tools | grep -vxF "${header%.hpp}.cpp" | xargs -rn1 dirname)
+  rooms=$(grep -rlF "#include \"$header\"" --include='*.[ch]pp' common formats tools tests | grep -vxF "${header%.hpp}.cpp" | xargs -rn1 dirname)
   (($(sort -u <<<"$rooms" | grep -cvxF "$(dirname "$header")") >= 2 || $(grep -cxF "$(dirname "$header")" <<<"$rooms") >= 3))
 }
 

@@ -103,6 +103,22 @@ PYTHON
   holds 'stats["layers"]["share_of_area_with_layers"] > 1 - 1e-9 and stats["layers"]["least_share_of_height"] < 0.5' stats.json
 }
 
+@test "a knife edge, a tip of ten facets, and a plate lower than its layers have valid layers" {
+  $PYTHON "$DATA/surfaces.py" narrow
+  $PYTHON "$DATA/surfaces.py" box 6 6 0.4 >plate.obj
+  local part size height
+  while read -r part size height; do
+    tetmesh -q "$part" --size "$size" | findhex | buildgraph | initsol --iterations 1000 |
+      assemble -q --boundary-layers all=5 --first-height "$height" --growth 1.2 --stats stats.json -o mesh.vtu
+    expect mesh.vtu "$sound"
+    holds 'stats["layers"]["share_of_area_with_some_layers"] == 1 and stats["layers"]["share_of_area_with_layers"] > 0.9' stats.json
+  done <<'PARTS'
+knife.off 0.35 0.05
+star.off 0.5 0.04
+plate.obj 0.4 1
+PARTS
+}
+
 @test "every format takes layers, with names" {
   local format
   for format in mesh msh vtk inp su2 bdf; do

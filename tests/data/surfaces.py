@@ -8,9 +8,12 @@
     wedge               two tets with a facet in common, thinner than a quarter of their diagonal       OFF, to stdout
     sized               into this folder: a cube of 10 as cube.obj, and sizes of it: 0.6 at a corner in place.txt and
                         place.npy; from 0.8 below to 1.6 above by vertex in vertices.txt, and on a mesh in background.msh
+    narrow              into this folder: knife.off, which ends in an edge of 8 degrees, and star.off, at whose tip ten
+                        facets meet, between which edges go in and out
     documented PAGE     into this folder: the surfaces that formats/README.md shows
     points              into this folder: 50 points in the unit cube in every format, and files that are none
 """
+import math
 import re
 import struct
 import sys
@@ -210,6 +213,17 @@ def points():
             file.write(text)
 
 
+def narrow():
+    back = 4 * math.tan(math.radians(8))
+    a, b, c = (0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (4.0, 0.0, back)
+    d, e, f = ((x, 3.0, z) for x, _, z in (a, b, c))
+    off("knife.off", [(a, b, c), (d, f, e), (a, e, b), (a, d, e), (b, f, c), (b, e, f), (a, f, d), (a, c, f)])
+    radii = 3, 2
+    rim = [(radii[i % 2] * math.cos(math.pi * i / 5), radii[i % 2] * math.sin(math.pi * i / 5), 0.0) for i in range(10)]
+    tip, middle = (0.0, 0.0, 3.0), (0.0, 0.0, 0.0)
+    off("star.off", [(rim[i - 1], rim[i], tip) for i in range(10)] + [(rim[i], rim[i - 1], middle) for i in range(10)])
+
+
 def documented(page):
     with open(page) as file:
         shown = re.findall(r"<!-- surface (\S+) -->\n```\n(.*?)```", file.read(), re.S)
@@ -218,7 +232,7 @@ def documented(page):
             file.write(text)
 
 
-SHAPES = {shape.__name__: shape for shape in (samples, box, beside, turned, wedge, sized, documented, points)}
+SHAPES = {shape.__name__: shape for shape in (samples, box, beside, turned, wedge, sized, narrow, documented, points)}
 
 if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1] not in SHAPES:

@@ -11,7 +11,7 @@
 #include "common/mwis/ground/solution_state.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
-#include "random_cases.hpp"
+#include "tests/unit/random_cases.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/choice/exchange.hpp"
 #include "tools/assemble/choice/exchange_search.hpp"

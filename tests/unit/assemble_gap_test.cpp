@@ -10,7 +10,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
-#include "random_cases.hpp"
+#include "tests/unit/random_cases.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/choice/selection.hpp"
 #include "tools/assemble/conform/conform.hpp"

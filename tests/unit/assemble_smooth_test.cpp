@@ -4,7 +4,7 @@
 #include "cell_shapes.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
-#include "random_cases.hpp"
+#include "tests/unit/random_cases.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/conform/flat_tets.hpp"
 #include "tools/assemble/shape/point_star.hpp"

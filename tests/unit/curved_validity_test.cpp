@@ -14,7 +14,7 @@
 #include "common/curved/bend.hpp"
 #include "common/curved/nodes.hpp"
 #include "common/mesh/mixed_mesh.hpp"
-#include "random_cases.hpp"
+#include "tests/unit/random_cases.hpp"
 
 namespace hexpipe {
 namespace {

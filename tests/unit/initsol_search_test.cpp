@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "common/run/parallel.hpp"
-#include "random_cases.hpp"
 #include "random_graphs.hpp"
+#include "tests/unit/random_cases.hpp"
 #include "tools/initsol/initsol.hpp"
 
 namespace hexpipe {

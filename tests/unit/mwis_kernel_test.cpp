@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "common/mwis/exact/exact_solver.hpp"
-#include "random_cases.hpp"
 #include "random_graphs.hpp"
+#include "tests/unit/random_cases.hpp"
 
 namespace hexpipe {
 using namespace mwis;

@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "common/mwis/ground/solution_state.hpp"
-#include "random_cases.hpp"
 #include "random_graphs.hpp"
+#include "tests/unit/random_cases.hpp"
 
 namespace hexpipe {
 using namespace graph;

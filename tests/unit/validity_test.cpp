@@ -10,7 +10,7 @@
 #include "cell_shapes.hpp"
 #include "common/mesh/cell_measures.hpp"
 #include "common/mesh/quality.hpp"
-#include "random_cases.hpp"
+#include "tests/unit/random_cases.hpp"
 
 namespace hexpipe {
 namespace {
