@@ -23,7 +23,7 @@ import tempfile
 
 import numpy as np
 import openfoam
-from openfoam import HEAD, check_mesh, run, write
+from openfoam import HEAD, run, write
 from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -64,15 +64,7 @@ def write_surface(path):
     first, last = rings[0], rings[-1]
     solids = {"wall": wall, "inlet": [(first[0], first[1], first[2]), (first[0], first[2], first[3])],
               "outlet": [(last[0], last[2], last[1]), (last[0], last[3], last[2])]}
-    with open(path, "w") as file:
-        for name, triangles in solids.items():
-            file.write(f"solid {name}\n")
-            for triangle in triangles:
-                file.write("facet normal 0 0 0\nouter loop\n")
-                for point in triangle:
-                    file.write("vertex %.12g %.12g %.12g\n" % tuple(point))
-                file.write("endloop\nendfacet\n")
-            file.write(f"endsolid {name}\n")
+    openfoam.write_solids(path, solids)
 
 
 def make_case(case, half):
@@ -240,10 +232,10 @@ def name_patches(case):
     write(path, open(path).read().replace("part_", ""))
 
 
-def non_hexes(case):
-    done = run(["checkMesh", "-case", case])[0].stdout
+def non_hexes(text):
+    """In percent of the number, by what checkMesh says."""
     count = {name: int(n) for name, n in re.findall(r"^ +(hexahedra|prisms|wedges|pyramids|tet wedges|tetrahedra|polyhedra): +(\d+)",
-                                                    done, re.M)}
+                                                    text, re.M)}
     return 100 * (1 - count["hexahedra"] / sum(count.values()))
 
 
@@ -251,8 +243,9 @@ def report(name, case, reference):
     flow = Flow(case)
     shear, force = shear_errors(flow, reference) if reference else (0, 0)
     pressure = 100 * (flow.pressure / reference.pressure - 1) if reference else 0
-    cells = [f"{flow.cells}", f"{non_hexes(case):.1f}", f"{flow.iterations}{'' if flow.converged else '+'}", f"{flow.seconds:.0f}",
-             f"{shear:.2f}", f"{force:+.2f}", f"{pressure:+.2f}", *check_mesh(case)]
+    checked = openfoam.report_on_mesh(case)
+    cells = [f"{flow.cells}", f"{non_hexes(checked):.1f}", f"{flow.iterations}{'' if flow.converged else '+'}", f"{flow.seconds:.0f}",
+             f"{shear:.2f}", f"{force:+.2f}", f"{pressure:+.2f}", *openfoam.findings(checked)]
     print(f"{name:24} " + " ".join(f"{cell:>9}" for cell in cells), flush=True)
     return flow, shear
 

@@ -74,15 +74,8 @@ def write_half(surface, stl):
     mesh = meshio.read(surface)
     triangles = mesh.points[mesh.cells_dict["triangle"]]
     along = triangles.mean(1)[:, 0]
-    with open(stl, "w") as file:
-        for name, chosen in ("half", along > np.median(along)), ("rest", along <= np.median(along)):
-            file.write(f"solid {name}\n")
-            for triangle in triangles[chosen]:
-                file.write("facet normal 0 0 0\nouter loop\n")
-                for point in triangle:
-                    file.write("vertex %.12g %.12g %.12g\n" % tuple(point))
-                file.write("endloop\nendfacet\n")
-            file.write(f"endsolid {name}\n")
+    is_half = along > np.median(along)
+    openfoam.write_solids(stl, {"half": triangles[is_half], "rest": triangles[~is_half]})
 
 
 def snappy(folder, surface, size, args, first):

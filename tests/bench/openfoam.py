@@ -35,11 +35,33 @@ def make_case(case):
     os.makedirs(f"{case}/constant", exist_ok=True)
 
 
+def write_solids(path, solids):
+    """An ASCII STL file of named solids: by name, triangles of three points each."""
+    with open(path, "w") as file:
+        for name, triangles in solids.items():
+            file.write(f"solid {name}\n")
+            for triangle in triangles:
+                file.write("facet normal 0 0 0\nouter loop\n")
+                for point in triangle:
+                    file.write("vertex %.12g %.12g %.12g\n" % tuple(point))
+                file.write("endloop\nendfacet\n")
+            file.write(f"endsolid {name}\n")
+
+
 def check_mesh(case):
     """What checkMesh says: a word, the faces that are severely non-orthogonal, and the greatest angle."""
-    if shutil.which("checkMesh") is None:
+    return findings(report_on_mesh(case))
+
+
+def report_on_mesh(case):
+    """All that checkMesh says; nothing without it."""
+    return run(["checkMesh", "-case", case])[0].stdout if shutil.which("checkMesh") else ""
+
+
+def findings(text):
+    """check_mesh() of what checkMesh has said."""
+    if not text:
         return "", "", ""
-    text = run(["checkMesh", "-case", case])[0].stdout
     failed = [line for line in text.splitlines() if line.startswith(" ***") and "aspect" not in line.lower()]
     severe = re.search(r"severely non-orthogonal \(> 70 degrees\) faces: (\d+)", text)
     angle = re.search(r"Mesh non-orthogonality Max: ([\d.]+)", text)

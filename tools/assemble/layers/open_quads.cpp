@@ -13,7 +13,6 @@ namespace hexpipe::assemble::layers {
 namespace {
 
 using hybrid::FacetForm;
-using Form = std::array<Vertex, 4>;
 
 // The diagonal along which the quad should be cut; nothing if it can stay. It leaves out a single line without length,
 // or a single one that has a length, so that the other triangle has three alike.
@@ -65,7 +64,7 @@ class Opener {
   MixedMesh& mesh_;
   std::vector<Vertex>& origin_;
   Vertex next_origin_;  // a number that no point has yet
-  std::map<Form, VertexKey<2>> cuts_;
+  std::map<FacetVertices, VertexKey<2>> cuts_;
   CellBlock<5> pyramids_;
   CellBlock<4> tets_;
 };
@@ -115,9 +114,9 @@ bool Opener::are_valid(const Pieces& pieces, const Vec3& centre) const {
 }
 
 bool Opener::take_back() {
-  std::vector<Form> failed;
+  std::vector<FacetVertices> failed;
   hybrid::for_each_cell(mesh_, [&](CellKind kind, std::span<const Vertex> corners, std::int32_t) {
-    std::vector<Form> cut;
+    std::vector<FacetVertices> cut;
     for_each_quad(kind, corners, [&](const Quad& quad) {
       if (cut_at(quad) != nullptr) cut.push_back(FacetForm::of(quad).vertices);
     });
@@ -125,7 +124,7 @@ bool Opener::take_back() {
     const Pieces pieces = pieces_of(kind, corners, static_cast<Vertex>(mesh_.points.size()));
     if (!are_valid(pieces, middle_of(mesh_.points, corners))) failed.insert(failed.end(), cut.begin(), cut.end());
   });
-  for (const Form& form : failed) cuts_.erase(form);
+  for (const FacetVertices& form : failed) cuts_.erase(form);
   return !failed.empty();
 }
 

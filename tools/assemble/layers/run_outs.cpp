@@ -22,9 +22,10 @@ struct Wishes {
 // None where the line does well as it is, or would not do well then either.
 Wishes wishes_of(const Line& line) {
   Wishes wishes;
+  if (line.guides.empty()) return wishes;
   const double now = sight_of(line.normals, freedom_of(line.guides)).sine;
   wishes.can_do_without = now >= least_sight;
-  if (line.guides.empty() || line.normals.empty() || now >= full_sight) return wishes;
+  if (line.normals.empty() || now >= full_sight) return wishes;
   const Vec3 into_part = unit(shape::shortest_in_hull(line.normals));
   std::vector<Vec3> normals = line.normals;
   std::vector<Guide> kept;
