@@ -17,9 +17,9 @@
 namespace hexpipe::assemble::choice {
 
 // A candidate that takes part, by its place in the graph of the problem.
-using Participant = std::int32_t;
+using Participant = Index<struct ParticipantKind>;
 // A quad of participants, by its number in the problem.
-using QuadIndex = std::int32_t;
+using QuadIndex = Index<struct QuadOfParticipants>;
 
 // The participants to choose from. A quad is open if exactly one chosen cell has it.
 struct ExchangeProblem {

@@ -17,8 +17,8 @@
 namespace hexpipe::assemble::gap {
 
 // In a GapMesh: a cell of the gap, and a chosen cell.
-using GapIndex = std::int32_t;
-using KeptIndex = std::int32_t;
+using GapIndex = Index<struct GapKind>;
+using KeptIndex = Index<struct KeptKind>;
 
 struct GapCell {
   CellKind kind = CellKind::tet;

@@ -14,7 +14,7 @@
 
 namespace hexpipe::assemble {
 
-using CellIndex = std::int32_t;
+using CellIndex = Index<struct CellOfHybridMesh>;
 
 }  // namespace hexpipe::assemble
 

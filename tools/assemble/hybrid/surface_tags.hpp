@@ -19,7 +19,7 @@ namespace hexpipe::assemble::hybrid {
 void complete_surface(TetMesh& mesh, const TetAdjacency& adjacency);
 
 // A tagged triangle in SurfaceTags.
-using TaggedTriangle = std::int32_t;
+using TaggedTriangle = Index<struct TaggedTriangleKind>;
 
 // The tagged triangles and what covers a quad, less the flat tets that were peeled off the boundary (flat_tets.hpp)
 // and the vertices that merged along it (gap/passes.hpp).
