@@ -180,7 +180,7 @@ inline TetVerdict CellTets<Topology>::leave(TetIndex tet) {
   const MeshTables::FloodTet& at = tables_.flood_tet(tet);
   const auto b = corner_bits(at.vertices);
   const unsigned all = b[0] | b[1] | b[2] | b[3];
-  std::array<std::int32_t, 4> next;
+  std::array<Beyond, 4> next;
   std::int32_t any_next = 0;
   for (int facet = 0; facet < 4; ++facet) {
     has_inner_vertex_ |= b[facet] == 0;
@@ -189,18 +189,18 @@ inline TetVerdict CellTets<Topology>::leave(TetIndex tet) {
     const std::uint32_t wall = 1u << triangle;
     inner_ |= outer_ & wall;
     outer_ ^= wall;
-    next[facet] = triangle == triangle_count ? at.across[facet].code : tet;
-    any_next |= next[facet];
+    next[facet] = triangle == triangle_count ? at.across[facet] : Beyond{tet};
+    any_next |= next[facet].code;
   }
   if (any_next < 0) return stop_at(next);
-  for (const TetIndex beyond : next) add_interior(beyond);
+  for (const Beyond beyond : next) add_interior(beyond.tet());
   return interior_.size() > most_tets<Topology> ? TetVerdict::tet_count : TetVerdict::accepted;
 }
 
 // Adds the tets before the first facet that cannot be crossed. Too many tets are the more important verdict.
 template <class Topology>
-TetVerdict CellTets<Topology>::stop_at(const std::array<std::int32_t, 4>& next) {
-  for (std::size_t facet = 0; next[facet] >= 0; ++facet) add_interior(next[facet]);
+TetVerdict CellTets<Topology>::stop_at(const std::array<Beyond, 4>& next) {
+  for (std::size_t facet = 0; !next[facet].is_wall(); ++facet) add_interior(next[facet].tet());
   return interior_.size() > most_tets<Topology> ? TetVerdict::tet_count : TetVerdict::crosses_mesh;
 }
 

@@ -89,7 +89,7 @@ class FewTets {
   const TetIndex* end() const { return tets_.data() + size_; }
 
  private:
-  static constexpr TetIndex unused = std::numeric_limits<TetIndex>::min();  // less than every tet
+  static constexpr TetIndex unused{std::numeric_limits<std::int32_t>::min()};  // less than every tet
 
   std::array<TetIndex, (Most + 4) / 4 * 4> tets_;  // the tets, one that was not kept, then unused
   std::size_t size_ = 0;
@@ -143,7 +143,7 @@ class CellTets {
   TetVerdict judge_from(TetIndex start);
   TetVerdict flood_from(TetIndex start);
   TetVerdict leave(TetIndex tet);
-  TetVerdict stop_at(const std::array<std::int32_t, 4>& next);
+  TetVerdict stop_at(const std::array<Beyond, 4>& next);
   void add_interior(TetIndex tet);
   TetVerdict judge_walls() const;
   TetVerdict judge_quad(std::size_t quad);

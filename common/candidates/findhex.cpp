@@ -24,8 +24,7 @@ struct Found {
   CellCounts counts;
 };
 
-void append_tets(std::span<const std::int32_t> added, std::vector<std::int32_t>& tets,
-                 std::vector<std::int64_t>& offsets) {
+void append_tets(std::span<const TetIndex> added, std::vector<TetIndex>& tets, std::vector<std::int64_t>& offsets) {
   tets.insert(tets.end(), added.begin(), added.end());
   offsets.push_back(static_cast<std::int64_t>(tets.size()));
 }

@@ -24,11 +24,11 @@ Vertex lowest_vertex(const Tet& tet) {
 std::vector<TetIndex> order_by_lowest_vertex(const TetMesh& mesh) {
   std::vector<TetIndex> order;
   if (std::ranges::is_sorted(mesh.tets, {}, lowest_vertex)) return order;
-  std::vector<TetIndex> next(mesh.points.size() + 1, 0);
+  std::vector<std::int32_t> next(mesh.points.size() + 1, 0);
   for (const Tet& tet : mesh.tets) ++next[lowest_vertex(tet) + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
   order.resize(mesh.tets.size());
-  for (std::size_t t = 0; t < order.size(); ++t) order[next[lowest_vertex(mesh.tets[t])]++] = static_cast<TetIndex>(t);
+  for (const auto t : indices<TetIndex>(order.size())) order[next[lowest_vertex(mesh.tets[t])]++] = t;
   return order;
 }
 
@@ -71,8 +71,7 @@ std::vector<bool> MeshTables::order_tets() {
     reorder(mesh_.tet_tags, tet_order_);
   }
   std::vector<bool> usable(mesh_.tets.size());
-  for (std::size_t t = 0; t < usable.size(); ++t)
-    usable[t] = findings_.orientation.signs[number_in_mesh(static_cast<TetIndex>(t))] > 0;
+  for (const auto t : indices<TetIndex>(usable.size())) usable[t] = findings_.orientation.signs[number_in_mesh(t)] > 0;
   return usable;
 }
 
@@ -109,10 +108,10 @@ bool MeshTables::is_sharp(Vertex a, Vertex b, Vertex c, Vertex d) const {
 
 void MeshTables::make_flood_tets() {
   resize_in_huge_pages(flood_tets_, mesh_.tets.size());
-  for (std::size_t t = 0; t < flood_tets_.size(); ++t) {
+  for (const auto t : indices<TetIndex>(flood_tets_.size())) {
     FloodTet& tet = flood_tets_[t];
     tet.vertices = mesh_.tets[t];
-    const auto beyond = adjacency_.tets_beyond(static_cast<TetIndex>(t));
+    const auto beyond = adjacency_.tets_beyond(t);
     for (std::size_t facet = 0; facet < beyond.size(); ++facet) {
       if (beyond[facet] != no_index && usable_[beyond[facet]]) {
         tet.across[facet] = {beyond[facet]};

@@ -27,7 +27,7 @@ struct Beyond {
 
   static Beyond wall(std::size_t number) { return {~static_cast<std::int32_t>(number)}; }
   bool is_wall() const { return code < 0; }
-  TetIndex tet() const { return code; }
+  TetIndex tet() const { return TetIndex(code); }
   std::int32_t wall_number() const { return ~code; }
 };
 

@@ -66,15 +66,15 @@ void ConflictFinder::collect_lower(std::size_t i, SortedSet& found) const {
 
 template <class Topology>
 void ConflictFinder::collect_lower_of_kind(std::size_t i, SortedSet& found) const {
-  const auto self = static_cast<CandidateIndex>(i);
+  const CandidateIndex self(i);
   for (const TetIndex tet : candidates_.interior_tets_of(i))
     for (const auto entry : tets_.with_key(tet, 0)) {
       const CandidateIndex j = SharingIndex::candidate_of(entry);
       if (j >= self) break;
       found.insert(j);
     }
-  const auto insert_lower = [&](std::span<const CandidateIndex> ascending) {
-    for (const CandidateIndex j : ascending) {
+  const auto insert_lower = [&](std::span<const std::int32_t> ascending) {
+    for (const auto j : as_indices<CandidateIndex>(ascending)) {
       if (j >= self) break;
       found.insert(j);
     }

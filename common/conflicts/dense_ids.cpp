@@ -9,22 +9,24 @@ namespace {
 // A mesh has a few tets per candidate, or some more if candidates are few; a single candidate may name any number.
 constexpr std::size_t ids_a_candidate = 64, ids_in_any_case = 1 << 20;
 
-std::vector<std::int32_t> sorted_distinct(std::vector<std::int32_t> ids) {
+template <class Id>
+std::vector<Id> sorted_distinct(std::vector<Id> ids) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
 
-void renumber(std::int32_t& id, const std::vector<std::int32_t>& distinct) {
-  id = static_cast<std::int32_t>(std::lower_bound(distinct.begin(), distinct.end(), id) - distinct.begin());
+template <class Id>
+void renumber(Id& id, const std::vector<Id>& distinct) {
+  id = static_cast<Id>(std::lower_bound(distinct.begin(), distinct.end(), id) - distinct.begin());
 }
 
 }  // namespace
 
 std::optional<Candidates> with_dense_ids(const Candidates& candidates) {
-  TetIndex highest = -1;
+  std::int32_t highest = -1;
   for (const auto& row : candidates.vertices) highest = std::max(highest, *std::max_element(row.begin(), row.end()));
-  for (const TetIndex tet : candidates.tets) highest = std::max(highest, tet);
+  for (const std::int32_t tet : candidates.tets) highest = std::max(highest, tet);
   if (highest < static_cast<std::int64_t>(ids_in_any_case + ids_a_candidate * candidates.size())) return std::nullopt;
 
   Candidates dense = candidates;

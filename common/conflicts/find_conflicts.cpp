@@ -56,7 +56,7 @@ LowerConflicts find_lower_conflicts(const Candidates& candidates, const Share& s
         for (std::int64_t i = conflicts.first + begin; i < conflicts.first + end; ++i) {
           finder.collect_lower(static_cast<std::size_t>(i), scratch.found);
           const bool keeps_all = own.empty() || own[i];
-          scratch.found.drain([&](CandidateIndex j) {
+          scratch.found.drain([&](std::int32_t j) {
             if (!keeps_all && !own[j]) return;
             lists.add(j);
             ++scratch.degrees[i];
@@ -107,9 +107,9 @@ graph::ConflictGraph conflict_graph(Candidates candidates, const ConflictOptions
   for (PackedLists& lists : conflicts.blocks) {
     const std::int64_t end = std::min(first + candidates_a_block, static_cast<std::int64_t>(count));
     graph.neighbours.resize(graph.offsets[end]);
-    lists.for_each(first, [&](std::int64_t i, CandidateIndex j) {
+    lists.for_each(first, [&](std::int64_t i, std::int32_t j) {
       graph.neighbours[next[i]++] = j;
-      graph.neighbours[next[j]++] = static_cast<CandidateIndex>(i);
+      graph.neighbours[next[j]++] = static_cast<std::int32_t>(i);
     });
     first = end;
     freed.add(lists.bytes());

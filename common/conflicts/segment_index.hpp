@@ -38,7 +38,7 @@ class SegmentIndex {
  public:
   // The candidates that have both vertices, ascending.
   struct Segment {
-    std::span<const CandidateIndex> as_edge, not_as_edge;
+    std::span<const std::int32_t> as_edge, not_as_edge;
   };
 
   SegmentIndex(const Candidates& candidates, std::size_t vertex_count);

@@ -16,7 +16,7 @@ std::vector<TetIndex> dense_tets(const Candidates& candidates) {
   std::ranges::sort(distinct);
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   std::vector<TetIndex> places = candidates.tets;
-  for (TetIndex& tet : places) tet = static_cast<TetIndex>(std::ranges::lower_bound(distinct, tet) - distinct.begin());
+  for (TetIndex& tet : places) tet = TetIndex(std::ranges::lower_bound(distinct, tet) - distinct.begin());
   return places;
 }
 

@@ -55,7 +55,7 @@ std::vector<std::int64_t> offsets_from_counts(std::vector<std::int64_t> counts) 
   return counts;
 }
 
-std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source, std::span<const std::int32_t> numbers) {
+std::vector<TetIndex> match_facets(const TetMesh& mesh, const char* source, std::span<const TetIndex> numbers) {
   std::vector<std::int64_t> counts(mesh.points.size(), 0);
   for (const Tet& tet : mesh.tets)
     for_each_sorted_facet(tet, [&](Vertex lowest, Vertex, Vertex, int) { ++counts[lowest]; });
@@ -78,8 +78,8 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source, 
         source, "expected at most two tets at each facet, found tets {}, {} and {} at vertices {} {} {}", tets[0] + 1,
         tets[1] + 1, tets[2] + 1, lowest + 1, (others >> 32) + 1, (others & 0xffffffff) + 1);
   };
-  std::vector<std::int32_t> across;
-  resize_in_huge_pages(across, 4 * mesh.tets.size(), no_index);
+  std::vector<TetIndex> across;
+  resize_in_huge_pages(across, 4 * mesh.tets.size());
   parallel_for(static_cast<std::int64_t>(mesh.points.size()), 1024, [&](std::int64_t v) {
     const auto begin = filed.begin() + offsets[v], end = filed.begin() + offsets[v + 1];
     std::sort(begin, end, [](const FiledFacet& a, const FiledFacet& b) {
@@ -90,8 +90,8 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source, 
       if (!same(*i, *(i + 1))) continue;
       if (i + 2 != end && same(*i, *(i + 2)))
         throw_too_many_tets({i->code / 4, (i + 1)->code / 4, (i + 2)->code / 4}, v, i->others);
-      across[i->code] = static_cast<std::int32_t>((i + 1)->code / 4);
-      across[(i + 1)->code] = static_cast<std::int32_t>(i->code / 4);
+      across[i->code] = TetIndex((i + 1)->code / 4);
+      across[(i + 1)->code] = TetIndex(i->code / 4);
       ++i;
     }
   });
@@ -100,7 +100,7 @@ std::vector<std::int32_t> match_facets(const TetMesh& mesh, const char* source, 
 
 }  // namespace
 
-TetAdjacency::TetAdjacency(const TetMesh& mesh, const char* source, std::span<const std::int32_t> numbers) {
+TetAdjacency::TetAdjacency(const TetMesh& mesh, const char* source, std::span<const TetIndex> numbers) {
   both_at_once([&] { across_ = match_facets(mesh, source, numbers); },
                [&] {
                  file_tets(mesh);
@@ -116,8 +116,8 @@ void TetAdjacency::file_tets(const TetMesh& mesh) {
 
   resize_in_huge_pages(tets_at_vertex_, 4 * mesh.tets.size());
   std::vector<std::int64_t> next(tet_offsets_.begin(), tet_offsets_.end() - 1);
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    for (const Vertex v : mesh.tets[t]) tets_at_vertex_[next[v]++] = static_cast<std::int32_t>(t);
+  for (const auto t : indices<TetIndex>(mesh.tets.size()))
+    for (const Vertex v : mesh.tets[t]) tets_at_vertex_[next[v]++] = t;
 }
 
 void TetAdjacency::find_neighbours(const TetMesh& mesh) {
@@ -136,7 +136,7 @@ void TetAdjacency::find_neighbours(const TetMesh& mesh) {
         for (std::int64_t v = begin; v < end; ++v) {
           const auto before = static_cast<std::ptrdiff_t>(block.second.size());
           last_seen_from[v] = static_cast<Vertex>(v);
-          for (const std::int32_t t : tets_at(static_cast<Vertex>(v)))
+          for (const TetIndex t : tets_at(static_cast<Vertex>(v)))
             for (const Vertex w : mesh.tets[t])
               if (std::exchange(last_seen_from[w], static_cast<Vertex>(v)) != v) block.second.push_back(w);
           std::sort(block.second.begin() + before, block.second.end());
@@ -168,12 +168,11 @@ std::size_t add_missing_boundary_triangles(TetMesh& mesh, const TetAdjacency& ad
   std::sort(named.begin(), named.end());
 
   const std::size_t before = mesh.triangles.size();
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+  for (const auto t : indices<TetIndex>(mesh.tets.size()))
     for (int facet = 0; facet < 4; ++facet) {
-      const std::int32_t beyond = adjacency.tet_beyond(static_cast<std::int32_t>(t), facet);
+      const TetIndex beyond = adjacency.tet_beyond(t, facet);
       const bool boundary = beyond == no_index;
-      const bool interface =
-          !boundary && static_cast<std::size_t>(beyond) > t && mesh.tet_tags[beyond] != mesh.tet_tags[t];
+      const bool interface = !boundary && beyond > t && mesh.tet_tags[beyond] != mesh.tet_tags[t];
       if (!boundary && !interface) continue;
       const auto& corners = TetTopology::triangles[facet];
       const Tet& tet = mesh.tets[t];

@@ -15,13 +15,10 @@ class TetAdjacency {
  public:
   // Throws DataError naming `source` when a facet belongs to more than two tets; the message counts tets and vertices
   // from 1. `numbers` holds the numbers that the source gives the tets, from 0, if they differ from their places here.
-  TetAdjacency(const TetMesh& mesh, const char* source, std::span<const std::int32_t> numbers = {});
+  TetAdjacency(const TetMesh& mesh, const char* source, std::span<const TetIndex> numbers = {});
 
   // The tet beyond a facet, or no_index at the boundary.
-  TetIndex tet_beyond(TetIndex tet, int facet) const {
-    const TetIndex code = across_[4 * static_cast<std::size_t>(tet) + facet];
-    return code < 0 ? no_index : code;
-  }
+  TetIndex tet_beyond(TetIndex tet, int facet) const { return across_[4 * static_cast<std::size_t>(tet) + facet]; }
   // The tets beyond all four facets.
   std::span<const TetIndex, 4> tets_beyond(TetIndex tet) const {
     return std::span<const TetIndex, 4>(&across_[4 * static_cast<std::size_t>(tet)], 4);
@@ -54,7 +51,7 @@ class TetAdjacency {
 // Calls visit(triangle) for each facet of only one tet. It points out of this.
 template <class Visit>
 void for_each_boundary_facet(const TetMesh& mesh, const TetAdjacency& adjacency, Visit&& visit) {
-  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tets.size()); ++t)
+  for (const auto t : indices<TetIndex>(mesh.tets.size()))
     for (int facet = 0; facet < 4; ++facet) {
       if (adjacency.tet_beyond(t, facet) != no_index) continue;
       const auto& [a, b, c] = TetTopology::triangles[facet];

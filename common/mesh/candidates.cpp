@@ -35,7 +35,7 @@ void check_kind_and_corners(const Candidates& candidates, std::size_t i, const c
 }
 
 // `what`: "tets" or "boundary tets".
-void check_tets(std::size_t count, const std::vector<std::int64_t>& offsets, const std::vector<std::int32_t>& tets,
+void check_tets(std::size_t count, const std::vector<std::int64_t>& offsets, const std::vector<TetIndex>& tets,
                 const char* what, const char* source) {
   if (offsets.size() != count + 1)
     throw DataError::at(source, "expected {} offsets of {}, found {}", count + 1, what, offsets.size());
@@ -54,11 +54,11 @@ void check_tets(std::size_t count, const std::vector<std::int64_t>& offsets, con
   }
 }
 
-void check_against_mesh(const std::vector<std::int64_t>& offsets, const std::vector<std::int32_t>& tets,
+void check_against_mesh(const std::vector<std::int64_t>& offsets, const std::vector<TetIndex>& tets,
                         const TetMesh& mesh, std::size_t i, const char* source) {
   // The tets ascend, so the last one is the largest.
   if (offsets[i] == offsets[i + 1]) return;
-  const std::int32_t last = tets[offsets[i + 1] - 1];
+  const TetIndex last = tets[offsets[i + 1] - 1];
   if (static_cast<std::size_t>(last) >= mesh.tets.size())
     throw DataError::at(source, "expected tets below {} in candidate {}, found {}", mesh.tets.size(), i + 1, last);
 }
@@ -99,10 +99,10 @@ void append(Candidates& to, const Candidates& from, double share_of_all) {
   append_offsets(to.boundary_tet_offsets, from.boundary_tet_offsets, share_of_all);
 }
 
-Candidates select(const Candidates& candidates, std::span<const std::int32_t> kept) {
-  const auto same = [](std::int32_t number) { return number; };
+Candidates select(const Candidates& candidates, std::span<const CandidateIndex> kept) {
+  const auto same = [](auto number) { return number; };
   Candidates chosen;
-  for (const std::int32_t i : kept) append_candidate(chosen, candidates, i, same, same, same);
+  for (const CandidateIndex i : kept) append_candidate(chosen, candidates, i, same, same, same);
   return chosen;
 }
 

@@ -11,8 +11,8 @@
 
 namespace hexpipe {
 
-// From 0, in Candidates and as a vertex of their conflict graph; no_index stands for none.
-using CandidateIndex = std::int32_t;
+// In Candidates, and as a vertex of their conflict graph.
+using CandidateIndex = Index<struct CandidateKind>;
 
 struct Candidates {
   std::vector<std::array<Vertex, 8>> vertices;  // in the numbering of cell_topology.hpp, padded with no_index

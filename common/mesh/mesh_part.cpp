@@ -97,25 +97,15 @@ void validate_against(const MeshPart& part, const Candidates& candidates, const 
   };
   for (const auto& row : candidates.vertices)
     for (const Vertex v : row) check("points", v, part.point_number.size());
-  for (const std::int32_t tet : candidates.tets) check("tets", tet, part.tet_number.size());
-  for (const std::int32_t tet : candidates.boundary_tets) check("tets", tet, part.tet_number.size());
+  for (const TetIndex tet : candidates.tets) check("tets", tet, part.tet_number.size());
+  for (const TetIndex tet : candidates.boundary_tets) check("tets", tet, part.tet_number.size());
 }
 
-std::vector<std::int32_t> places_in(const std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from) {
-  std::vector<std::int32_t> places(from.size(), no_index);
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    while (at < to.size() && to[at] < from[i]) ++at;
-    if (at < to.size() && to[at] == from[i]) places[i] = static_cast<std::int32_t>(at);
-  }
-  return places;
-}
-
-CandidateKeys select(const CandidateKeys& keys, std::span<const std::int32_t> kept) {
+CandidateKeys select(const CandidateKeys& keys, std::span<const CandidateIndex> kept) {
   CandidateKeys chosen;
   chosen.key.reserve(kept.size());
   chosen.part.reserve(kept.size());
-  for (const std::int32_t i : kept) {
+  for (const CandidateIndex i : kept) {
     chosen.key.push_back(keys.key[i]);
     chosen.part.push_back(keys.part[i]);
   }

@@ -47,7 +47,16 @@ void validate_against(const MeshPart& part, const Candidates& candidates, const 
 std::string title_of(const MeshPart& part);
 
 // For each place in `from`, the place in `to` that has the same number, or no_index. Both ascend.
-std::vector<std::int32_t> places_in(const std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from);
+template <class Place = std::int32_t>
+std::vector<Place> places_in(const std::vector<std::int64_t>& to, const std::vector<std::int64_t>& from) {
+  std::vector<Place> places(from.size(), no_index);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    while (at < to.size() && to[at] < from[i]) ++at;
+    if (at < to.size() && to[at] == from[i]) places[i] = static_cast<Place>(at);
+  }
+  return places;
+}
 
 // Identifies candidates across all parts. Ascending keys give the order in which a single run has the candidates.
 struct CandidateKeys {
@@ -55,7 +64,7 @@ struct CandidateKeys {
   std::vector<std::int32_t> part;  // owners
 };
 // The keys named by `kept`, in its order.
-CandidateKeys select(const CandidateKeys& keys, std::span<const std::int32_t> kept);
+CandidateKeys select(const CandidateKeys& keys, std::span<const CandidateIndex> kept);
 
 // A key holds, from the top: 2 bits for the kind; 38 bits for the vertex where the candidate was found, as numbered in
 // the whole mesh; 24 bits for its place among the candidates of this kind and vertex.

@@ -77,9 +77,9 @@ std::vector<std::int8_t> find_turns(const TetMesh& mesh, const std::vector<std::
   const TetAdjacency adjacency(mesh, source);
   std::vector<Turn> turns(mesh.tets.size(), Turn::unknown);
   std::vector<TetIndex> component;
-  for (std::size_t start = 0; start < mesh.tets.size(); ++start) {
+  for (const auto start : indices<TetIndex>(mesh.tets.size())) {
     if (turns[start] != Turn::unknown) continue;
-    spread(mesh, adjacency, static_cast<TetIndex>(start), turns, component);
+    spread(mesh, adjacency, start, turns, component);
     prefer_positive(component, signs, turns);
   }
   std::vector<std::int8_t> turned(turns.size());
@@ -114,10 +114,10 @@ TetOrientation orient_tets(TetMesh& mesh, std::vector<std::int8_t> turns) {
 }
 
 void check_sides(const TetMesh& mesh, const TetAdjacency& adjacency, const char* source,
-                 std::span<const std::int32_t> numbers) {
+                 std::span<const TetIndex> numbers) {
   const auto number_of = [&](std::int64_t tet) { return numbers.empty() ? tet : numbers[tet]; };
   parallel_for(static_cast<std::int64_t>(mesh.tets.size()), tets_a_block, [&](std::int64_t t) {
-    const auto across = adjacency.tets_beyond(static_cast<std::int32_t>(t));
+    const auto across = adjacency.tets_beyond(TetIndex(t));
     for (int facet = 0; facet < 4; ++facet) {
       const TetIndex beyond = across[facet];
       if (beyond <= t || listed_alike(mesh.tets[t], facet, mesh.tets[beyond])) continue;

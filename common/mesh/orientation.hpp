@@ -35,7 +35,7 @@ TetOrientation orient_tets(TetMesh& mesh, std::vector<std::int8_t> turns);
 // copies of a tet. The message counts tets and vertices from 1. `numbers` holds the numbers that the source gives the
 // tets, from 0, if they differ from their places here.
 void check_sides(const TetMesh& mesh, const TetAdjacency& adjacency, const char* source,
-                 std::span<const std::int32_t> numbers = {});
+                 std::span<const TetIndex> numbers = {});
 
 // A warning about the tets that were turned. There is one if they are few among many, which hints at a fault; there is
 // none if the file lists all its tets in the other sense, or in no order.

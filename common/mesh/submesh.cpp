@@ -7,11 +7,11 @@
 namespace hexpipe {
 namespace {
 
-template <class T>
-std::vector<T> select_items(const std::vector<T>& items, std::span<const std::int32_t> chosen) {
+template <class T, class I>
+std::vector<T> select_items(const std::vector<T>& items, const std::vector<I>& chosen) {
   std::vector<T> selected;
   selected.reserve(chosen.size());
-  for (const std::int32_t i : chosen) selected.push_back(items[i]);
+  for (const I i : chosen) selected.push_back(items[i]);
   return selected;
 }
 
@@ -47,7 +47,7 @@ std::vector<Ridge> ridges_among(const std::vector<Ridge>& ridges, std::span<cons
 
 }  // namespace
 
-Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vector<std::int32_t> tets,
+Submesh submesh(const TetMesh& mesh, std::vector<Vertex> points, std::vector<TetIndex> tets,
                 std::vector<std::int32_t> triangles, std::vector<std::int32_t>& scratch) {
   Submesh result{{}, std::move(points), std::move(tets), std::move(triangles)};
   result.mesh.points = select_items(mesh.points, result.points);
@@ -69,13 +69,13 @@ Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vect
 
 Submesh submesh_around(const TetMesh& mesh, const std::vector<bool>& marked, int edges) {
   std::vector<bool> reached = marked;
-  std::vector<std::int32_t> tets;
+  std::vector<TetIndex> tets;
   for (int distance = 0; distance <= edges; ++distance) {
     tets.clear();
     std::vector<bool> next = reached;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (const auto t : indices<TetIndex>(mesh.tets.size())) {
       if (!has_marked(mesh.tets[t], reached)) continue;
-      tets.push_back(static_cast<std::int32_t>(t));
+      tets.push_back(t);
       for (const Vertex v : mesh.tets[t]) next[v] = true;
     }
     reached = std::move(next);

@@ -11,12 +11,14 @@ namespace hexpipe {
 struct Submesh {
   TetMesh mesh;
   // For each point, tet and triangle here: its number in the mesh. Ascending.
-  std::vector<std::int32_t> points, tets, triangles;
+  std::vector<Vertex> points;
+  std::vector<TetIndex> tets;
+  std::vector<std::int32_t> triangles;
 };
 
 // The submesh with these points, tets and triangles. All three lists ascend, and `points` has all the points that the
 // others use. `scratch` may hold anything; callers that take many submeshes pass the same one to save memory.
-Submesh submesh(const TetMesh& mesh, std::vector<std::int32_t> points, std::vector<std::int32_t> tets,
+Submesh submesh(const TetMesh& mesh, std::vector<Vertex> points, std::vector<TetIndex> tets,
                 std::vector<std::int32_t> triangles, std::vector<std::int32_t>& scratch);
 
 // The tets that have a point at most `edges` edges away from a marked one, and the triangles between their points.

@@ -8,14 +8,14 @@
 #include <span>
 #include <vector>
 
+#include "common/mesh/index.hpp"
 #include "common/mesh/vec3.hpp"
 
 namespace hexpipe {
 
+// A plain number, as files hold it: vertices meet everything, and most arrays of a mesh consist of them.
 using Vertex = std::int32_t;
-using TetIndex = std::int32_t;
-// Stands for no vertex, tet, cell or candidate where an index is expected.
-inline constexpr std::int32_t no_index = -1;
+using TetIndex = Index<struct TetKind>;
 using Tet = std::array<Vertex, 4>;
 using Triangle = std::array<Vertex, 3>;
 using Quad = std::array<Vertex, 4>;

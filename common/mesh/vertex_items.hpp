@@ -10,29 +10,32 @@
 
 namespace hexpipe {
 
-class VertexItems {
+template <class Item>
+class VertexItemsOf {
  public:
-  VertexItems() = default;
+  VertexItemsOf() = default;
 
   // each_corner(visit) calls visit(vertex, item) for every corner of every item, items ascending. It is called twice.
   template <class EachCorner>
-  VertexItems(std::size_t vertex_count, EachCorner&& each_corner) : offsets_(vertex_count + 1) {
-    each_corner([&](Vertex v, std::int32_t) { ++offsets_[v + 1]; });
+  VertexItemsOf(std::size_t vertex_count, EachCorner&& each_corner) : offsets_(vertex_count + 1) {
+    each_corner([&](Vertex v, Item) { ++offsets_[v + 1]; });
     std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
     items_.resize(static_cast<std::size_t>(offsets_.back()));
     std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
-    each_corner([&](Vertex v, std::int32_t item) { items_[next[v]++] = item; });
+    each_corner([&](Vertex v, Item item) { items_[next[v]++] = item; });
   }
 
   // The items at a vertex, ascending.
-  std::span<const std::int32_t> at(Vertex v) const {
+  std::span<const Item> at(Vertex v) const {
     return std::span(items_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
   }
 
  private:
   std::vector<std::int64_t> offsets_;
-  std::vector<std::int32_t> items_;
+  std::vector<Item> items_;
 };
+
+using VertexItems = VertexItemsOf<std::int32_t>;
 
 inline VertexItems triangles_at_vertices(std::size_t vertex_count, std::span<const Triangle> triangles) {
   return VertexItems(vertex_count, [&](auto&& visit) {

@@ -88,10 +88,10 @@ class CandParser {
     }
   }
 
-  void read_tets(std::uint32_t count, std::vector<std::int32_t>& tets, std::vector<std::int64_t>& offsets) {
-    std::int32_t last = -1;
+  void read_tets(std::uint32_t count, std::vector<TetIndex>& tets, std::vector<std::int64_t>& offsets) {
+    TetIndex last;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const std::int32_t tet = index("a tet");
+      const TetIndex tet(index("a tet"));
       if (tet <= last) scanner_.fail(fmt::format("expected ascending tets, found {} after {}", tet + 1, last + 1));
       tets.push_back(last = tet);
     }
@@ -145,8 +145,8 @@ void write_cand(const Candidates& candidates, Output& output) {
     line << name_of(candidates.kind[i]) << candidates.quality[i] << candidates.volume[i] << interior.size()
          << boundary.size();
     for (const Vertex v : candidates.corners_of(i)) line << v + 1;
-    for (const std::int32_t t : interior) line << t + 1;
-    for (const std::int32_t t : boundary) line << t + 1;
+    for (const TetIndex t : interior) line << t + 1;
+    for (const TetIndex t : boundary) line << t + 1;
     line.end_line();
   }
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/mesh/index.hpp"
 #include "common/mesh/vec3.hpp"
 
 namespace hexpipe::pipeline {
@@ -46,6 +47,11 @@ template <class T, std::size_t N>
 struct NpyRow<std::array<T, N>> {
   using Number = T;
   static constexpr std::uint64_t columns = N;
+};
+template <class Kind>
+struct NpyRow<Index<Kind>> {
+  using Number = std::int32_t;
+  static constexpr std::uint64_t columns = 0;
 };
 template <>
 struct NpyRow<Vec3> {

@@ -27,8 +27,8 @@ TetMesh two_tets() {
 TEST(TetAdjacency, KnowsTheTetBeyondEachFacet) {
   const TetMesh mesh = two_tets();
   const TetAdjacency adjacency(mesh, "test");
-  EXPECT_THAT(adjacency.tets_beyond(0), ElementsAre(1, -1, -1, -1));
-  EXPECT_THAT(adjacency.tets_beyond(1), ElementsAre(-1, 0, -1, -1));
+  EXPECT_THAT(adjacency.tets_beyond(TetIndex(0)), ElementsAre(1, -1, -1, -1));
+  EXPECT_THAT(adjacency.tets_beyond(TetIndex(1)), ElementsAre(-1, 0, -1, -1));
 }
 
 TEST(TetAdjacency, KnowsWhatIsAroundAVertex) {
@@ -50,7 +50,7 @@ TEST(TetAdjacency, ThreeTetsAtAFacetAreAnError) {
   EXPECT_THAT(
       [&] { TetAdjacency(mesh, "m.mesh"); },
       ::testing::ThrowsMessage<DataError>("m.mesh: expected at most two tets at each facet, found tets 1, 2 and 3 "
-                                        "at vertices 2 3 4"));
+                                          "at vertices 2 3 4"));
 }
 
 TEST(AddMissingBoundaryTriangles, CompletesBoundaryAndInterface) {
@@ -89,10 +89,10 @@ TEST(TetAdjacency, AgreesWithBruteForceOnALattice) {
       }
   mesh.tet_tags.assign(mesh.tets.size(), 0);
   const TetAdjacency adjacency(mesh, "test");
-  for (std::int32_t a = 0; a < std::ssize(mesh.tets); ++a)
+  for (const auto a : indices<TetIndex>(mesh.tets.size()))
     for (int facet = 0; facet < 4; ++facet) {
-      std::int32_t expected = no_index;
-      for (std::int32_t b = 0; b < std::ssize(mesh.tets); ++b) {
+      TetIndex expected = no_index;
+      for (const auto b : indices<TetIndex>(mesh.tets.size())) {
         int shared = 0;
         for (const auto corner : TetTopology::triangles[facet])
           shared += std::count(mesh.tets[b].begin(), mesh.tets[b].end(), mesh.tets[a][corner]);

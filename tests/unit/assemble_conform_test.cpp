@@ -5,6 +5,7 @@
 #include "assemble_lattice.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/cell_topology.hpp"
+#include "tests/unit/list_of.hpp"
 #include "tools/assemble/assemble.hpp"
 
 namespace hexpipe {
@@ -64,10 +65,10 @@ TEST(Conform, RandomChoicesOnJitteredLatticesStayConforming) {
 std::int64_t tag_inner_facets(testing::Lattice& lattice, const IndependentSet& chosen, std::int32_t tag,
                               Random& random) {
   const TetAdjacency adjacency(lattice.mesh, "lattice");
-  const auto is_chosen = [&](std::int32_t tet) { return std::ranges::binary_search(chosen, tet / 6); };
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(lattice.mesh.tets.size()); ++t)
+  const auto is_chosen = [&](TetIndex tet) { return std::ranges::binary_search(chosen, tet / 6); };
+  for (const auto t : indices<TetIndex>(lattice.mesh.tets.size()))
     for (int facet = 0; facet < 4; ++facet) {
-      const std::int32_t beyond = adjacency.tet_beyond(t, facet);
+      const TetIndex beyond = adjacency.tet_beyond(t, facet);
       if (beyond < t || is_chosen(t) || is_chosen(beyond) || random.uniform() > 0.06) continue;
       const Tet& tet = lattice.mesh.tets[t];
       const auto& f = TetTopology::triangles[facet];
@@ -127,7 +128,7 @@ TEST(Conform, CellsThatWouldCloseAHoleGoBack) {
   pyramids.kind = {CellKind::pyramid, CellKind::pyramid};
   pyramids.quality = {0.5, 0.5};
   pyramids.volume = {0.3, 0.3};
-  pyramids.tets = {0, 1, 2, 3};
+  pyramids.tets = testing::list_of<TetIndex>({0, 1, 2, 3});
   pyramids.tet_offsets = {0, 2, 4};
   pyramids.boundary_tet_offsets = {0, 0, 0};
   for (const IndependentSet& chosen : {IndependentSet{0}, IndependentSet{1}, IndependentSet{0, 1}}) {

@@ -27,9 +27,14 @@ using namespace graph;
 using namespace mwis::ground;
 namespace {
 
+using testing::candidates_in;
 using testing::jitter;
 using testing::Lattice;
 using testing::make_lattice;
+
+IndependentSet set_of(const std::vector<CandidateIndex>& candidates) {
+  return {candidates.begin(), candidates.end()};
+}
 
 // A lattice with all cells that findhex sees in it, cubes and cells across these, and their conflicts.
 class Scene {
@@ -45,7 +50,8 @@ class Scene {
   }
 
   Exchange exchange(const IndependentSet& chosen) const {
-    return exchange_hexes(mesh, *boundary, candidates, Selection(mesh, *tags, candidates, chosen).choice());
+    return exchange_hexes(mesh, *boundary, candidates,
+                          Selection(mesh, *tags, candidates, candidates_in(chosen)).choice());
   }
 
   // `first`, and whatever else fits, in random order.
@@ -61,7 +67,7 @@ class Scene {
 
   std::int64_t open_quads(const IndependentSet& chosen) const {
     const SurfaceTags fresh(mesh);
-    const Selection selection(mesh, fresh, candidates, chosen);
+    const Selection selection(mesh, fresh, candidates, candidates_in(chosen));
     return static_cast<std::int64_t>(choice::open_quads(selection.mesh()).size());
   }
 
@@ -109,7 +115,7 @@ TEST(Exchange, ACellAcrossCubesGivesWayToThem) {
     EXPECT_EQ(exchange.chosen.size(), 8u);
     EXPECT_EQ(exchange.counts.open_quads_before, scene.open_quads(chosen));
     EXPECT_EQ(exchange.counts.open_quads_after, 0);
-    EXPECT_EQ(scene.open_quads(exchange.chosen), 0);
+    EXPECT_EQ(scene.open_quads(set_of(exchange.chosen)), 0);
   }
   EXPECT_GT(across, 10);
 }
@@ -125,14 +131,14 @@ TEST(Exchange, LeavesFewerQuadsOpenAndHexesWithMoreVolume) {
     const Scene scene(std::move(lattice));
     const auto chosen = scene.maximal_choice({}, random);
     const Exchange exchange = scene.exchange(chosen);
-    EXPECT_NO_THROW(validate(exchange.chosen, scene.graph, "exchanged"));
+    EXPECT_NO_THROW(validate(set_of(exchange.chosen), scene.graph, "exchanged"));
     EXPECT_EQ(exchange.counts.open_quads_before, scene.open_quads(chosen));
-    EXPECT_EQ(exchange.counts.open_quads_after, scene.open_quads(exchange.chosen));
+    EXPECT_EQ(exchange.counts.open_quads_after, scene.open_quads(set_of(exchange.chosen)));
     EXPECT_LT(exchange.counts.open_quads_after, exchange.counts.open_quads_before);
-    EXPECT_GT(scene.volume_of_hexes(exchange.chosen), scene.volume_of_hexes(chosen));
+    EXPECT_GT(scene.volume_of_hexes(set_of(exchange.chosen)), scene.volume_of_hexes(chosen));
     IndependentSet out, in;
-    std::ranges::set_difference(chosen, exchange.chosen, std::back_inserter(out));
-    std::ranges::set_difference(exchange.chosen, chosen, std::back_inserter(in));
+    std::ranges::set_difference(chosen, set_of(exchange.chosen), std::back_inserter(out));
+    std::ranges::set_difference(set_of(exchange.chosen), chosen, std::back_inserter(in));
     EXPECT_EQ(exchange.counts.hexes_out, static_cast<std::int64_t>(out.size()));
     EXPECT_EQ(exchange.counts.hexes_in, static_cast<std::int64_t>(in.size()));
   }
@@ -149,7 +155,7 @@ TEST(Exchange, APartialChoiceIsNotFilledUp) {
     const double share = random.uniform(0.05, 0.5);
     IndependentSet some;
     std::ranges::copy_if(all, std::back_inserter(some), [&](std::int32_t) { return random.uniform() < share; });
-    const IndependentSet exchanged = scene.exchange(some).chosen;
+    const IndependentSet exchanged = set_of(scene.exchange(some).chosen);
     // Two come for one here and there.
     EXPECT_LE(exchanged.size(), some.size() + 2);
     const SolutionState before(scene.graph, some);
@@ -184,8 +190,8 @@ TEST(Exchange, PrismsAndPyramidsStay) {
       if (scene.candidates.kind[i] == CellKind::hex && state.tightness(i) == 0 && random.uniform() < 0.3) state.add(i);
     const auto chosen = scene.maximal_choice(state.to_set(), random);
     const Exchange exchange = scene.exchange(chosen);
-    EXPECT_NO_THROW(validate(exchange.chosen, scene.graph, "exchanged"));
-    EXPECT_EQ(of_other_kinds(exchange.chosen), of_other_kinds(chosen));
+    EXPECT_NO_THROW(validate(set_of(exchange.chosen), scene.graph, "exchanged"));
+    EXPECT_EQ(of_other_kinds(set_of(exchange.chosen)), of_other_kinds(chosen));
     exchanged += exchange.counts.hexes_in;
     others += static_cast<std::int64_t>(of_other_kinds(chosen).size());
   }
@@ -215,7 +221,7 @@ TEST(Exchange, WhatNobodyChoseMayBeAnything) {
   const auto chosen_or = [&](auto&& change) {
     Candidates changed;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(scene.candidates.size()); ++i) {
-      append(changed, select(scene.candidates, std::vector<std::int32_t>{i}));
+      append(changed, select(scene.candidates, std::vector{CandidateIndex(i)}));
       if (!std::ranges::binary_search(chosen, i)) change(changed);
     }
     return changed;
@@ -265,7 +271,7 @@ TEST(Exchange, IsTheSameForAnyNumberOfThreads) {
   std::vector<IndependentSet> results;
   for (const int threads : {1, 4}) {
     const ThreadLimit limit(threads);
-    results.push_back(scene.exchange(chosen).chosen);
+    results.push_back(set_of(scene.exchange(chosen).chosen));
   }
   EXPECT_EQ(results[0], results[1]);
 }
@@ -303,13 +309,13 @@ ExchangeProblem random_problem(std::int32_t count, Random& random) {
   }
   problem.quads.resize(count);
   for (auto& row : problem.quads) row.fill(no_index);
-  for (std::int32_t a = 0; a < count; ++a)
+  for (const auto a : indices<Participant>(problem.quads.size()))
     for (int k = 0; k < 3; ++k) {
-      const auto quad = static_cast<std::int32_t>(problem.cost.size());
+      const QuadIndex quad(problem.cost.size());
       problem.cost.push_back(50 + static_cast<std::int64_t>(random.below(100)));
       problem.fixed_cells.push_back(random.uniform() < 0.1 ? 1 : 0);
       problem.quads[a][k] = quad;
-      const auto b = static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(count)));
+      const Participant b(random.below(static_cast<std::uint64_t>(count)));
       if (b != a && problem.fixed_cells.back() == 0) problem.quads[b][3 + k] = quad;
     }
   problem.usual.assign(count, 700);
@@ -321,10 +327,10 @@ ExchangeProblem random_problem(std::int32_t count, Random& random) {
 std::int64_t value_of(const ExchangeProblem& problem, const IndependentSet& set) {
   std::int64_t value = total_weight(set, problem.graph);
   auto cells = problem.fixed_cells;
-  for (const std::int32_t i : set)
-    for (const std::int32_t quad : problem.quads[i])
+  for (const auto i : as_indices<Participant>(set))
+    for (const QuadIndex quad : problem.quads[i])
       if (quad != no_index) ++cells[quad];
-  for (std::size_t quad = 0; quad < cells.size(); ++quad)
+  for (const auto quad : indices<QuadIndex>(cells.size()))
     if (cells[quad] == 1) value -= problem.cost[quad];
   return value;
 }
@@ -364,11 +370,11 @@ TEST(ExchangeSearch, KeepsWhatItCountsRightAndIsNeverWorse) {
     Random random(seed);
     ExchangeProblem problem = random_problem(60, random);
     const IndependentSet start = greedy_set(problem.graph);
-    for (std::int32_t i = 0; i < problem.graph.vertex_count(); ++i) {
+    for (const auto i : indices<Participant>(problem.stays.size())) {
       if (random.uniform() > 0.1) continue;
       problem.stays[i] = 1;
       if (!std::ranges::binary_search(start, i)) continue;
-      for (const std::int32_t u : problem.graph.neighbours_of(i)) problem.stays[u] = 1;
+      for (const auto u : as_indices<Participant>(problem.graph.neighbours_of(i))) problem.stays[u] = 1;
     }
     ExchangeSearch search(problem, start, random);
     EXPECT_EQ(search.value(), value_of(problem, start));
@@ -381,7 +387,7 @@ TEST(ExchangeSearch, KeepsWhatItCountsRightAndIsNeverWorse) {
       EXPECT_EQ(search.best_value(), value_of(problem, best));
       EXPECT_GE(search.best_value(), best_before);
       best_before = search.best_value();
-      for (std::int32_t i = 0; i < problem.graph.vertex_count(); ++i)
+      for (const auto i : indices<Participant>(problem.stays.size()))
         EXPECT_TRUE(!problem.stays[i] || std::ranges::binary_search(best, i) == std::ranges::binary_search(start, i));
     }
   }

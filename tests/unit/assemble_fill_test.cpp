@@ -22,13 +22,13 @@ Lattice one_layer() {
   for (const std::int32_t cube : {0, 2, 4, 6}) {
     const auto tets_before = static_cast<std::int32_t>(layer.mesh.tets.size());
     const std::int32_t first = lattice.cubes.interior_tets_of(cube).front();
-    for (const std::int32_t t : lattice.cubes.interior_tets_of(cube)) {
+    for (const TetIndex t : lattice.cubes.interior_tets_of(cube)) {
       layer.mesh.tets.push_back(lattice.mesh.tets[t]);
       layer.mesh.tet_tags.push_back(lattice.mesh.tet_tags[t]);
     }
     append_candidate(
         layer.cubes, lattice.cubes, cube, [](Vertex v) { return v; },
-        [&](std::int32_t t) { return t - first + tets_before; }, [](std::int32_t t) { return t; });
+        [&](TetIndex t) { return TetIndex(t - first + tets_before); }, [](TetIndex t) { return t; });
   }
   return layer;
 }

@@ -15,7 +15,7 @@ namespace {
 
 using testing::tag_boundary;
 
-double quality(const HybridMesh& mesh, std::int32_t t) {
+double quality(const HybridMesh& mesh, TetIndex t) {
   const auto at = corner_points(mesh.points, mesh.tet(t));
   return std::sqrt(2.0) * least_corner_scaled_jacobian(CellKind::tet, std::span<const Vec3>(at).first(4));
 }
@@ -25,7 +25,7 @@ struct Sums {
   double worst = 1, volume = 0;
 
   explicit Sums(const HybridMesh& mesh) {
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t) {
+    for (const auto t : indices<TetIndex>(mesh.tet_count())) {
       if (!mesh.is_alive(t)) continue;
       ++tets;
       worst = std::min(worst, quality(mesh, t));

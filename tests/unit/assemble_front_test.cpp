@@ -100,7 +100,8 @@ TEST(TriedRooms, AreKnownInAnyOrderUntilAVertexMovesOrACellComes) {
   hybrid::HybridMesh hybrid(mesh, std::vector<bool>(3));
   const hybrid::SurfaceTags tags(TetMesh{});
   GapMesh gap(hybrid, tags, {});
-  const std::vector<GapIndex> room{0, 1}, turned{1, 0}, other{0, 2};
+  const GapIndex a(0), b(1), c(2);
+  const std::vector<GapIndex> room{a, b}, turned{b, a}, other{a, c};
   const auto state = [&](const std::vector<GapIndex>& cells) { return TriedRooms::state_of(gap, cells); };
   const std::uint64_t first = state(room);
   EXPECT_EQ(first, state(turned));
@@ -108,7 +109,7 @@ TEST(TriedRooms, AreKnownInAnyOrderUntilAVertexMovesOrACellComes) {
   gap.relocate(4, {1, 1, 1.1});
   const std::uint64_t moved = state(room);
   EXPECT_NE(first, moved);
-  gap.replace(std::vector<GapIndex>{2}, {});
+  gap.replace(std::vector{c}, {});
   EXPECT_NE(moved, state(room)) << "a cell beside the room is gone";
 }
 

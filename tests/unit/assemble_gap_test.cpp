@@ -10,6 +10,7 @@
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
+#include "tests/unit/list_of.hpp"
 #include "tests/unit/random_cases.hpp"
 #include "tools/assemble/assemble.hpp"
 #include "tools/assemble/choice/selection.hpp"
@@ -28,6 +29,7 @@ using namespace assemble::gap;
 using hybrid::HybridCell;
 using hybrid::HybridMesh;
 using hybrid::SurfaceTags;
+using testing::list_of;
 namespace {
 
 // Tets around the last point, one on each triangle, and pyramids, one on each quad; all are listed as seen from inside.
@@ -87,9 +89,9 @@ struct Census {
   }
 
   explicit Census(const HybridMesh& mesh) {
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tet_count()); ++t)
+    for (const auto t : indices<TetIndex>(mesh.tet_count()))
       if (mesh.is_alive(t)) add(mesh, CellKind::tet, mesh.tet(t), false);
-    for (std::int32_t c = 0; c < static_cast<std::int32_t>(mesh.cell_count()); ++c) {
+    for (const auto c : indices<CellIndex>(mesh.cell_count())) {
       const HybridCell& cell = mesh.cell(c);
       if (!cell.alive) continue;
       const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
@@ -127,7 +129,7 @@ bool has_tagged_skin(const Census& census, const SurfaceTags& tags) {
       halves.insert(half);
     }
   }
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags.size()); ++i) {
+  for (const auto i : indices<hybrid::TaggedTriangle>(tags.size())) {
     if (tags.find(tags.triangle(i)) != i) continue;
     const auto key = key_of(tags.triangle(i));
     const std::vector<Vertex> triangle(key.begin(), key.end());
@@ -206,9 +208,9 @@ TEST(MergeVertices, NoneGoesToTheCornerOfAQuad) {
   EXPECT_EQ(merge_stars(gap), 0);
 }
 
-std::vector<std::int32_t> all_cells(const GapMesh& gap) {
-  std::vector<std::int32_t> cells;
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(gap.cell_count()); ++c)
+std::vector<GapIndex> all_cells(const GapMesh& gap) {
+  std::vector<GapIndex> cells;
+  for (const auto c : indices<GapIndex>(gap.cell_count()))
     if (gap.is_alive(c)) cells.push_back(c);
   return cells;
 }
@@ -269,7 +271,7 @@ TetMesh ring_of_tets(int n) {
 TEST(Refill, ThreeTetsAtAnEdgeBecomeTwoUnlessAFacetIsTaggedOrARegionEnds) {
   const TetMesh mesh = ring_of_tets(3);
   const std::vector<bool> none_removed(3);
-  const std::vector<std::int32_t> cells{0, 1, 2};
+  const auto cells = list_of<GapIndex>({0, 1, 2});
   auto refilled = [&](const TetMesh& of) {
     HybridMesh hybrid(of, none_removed);
     const SurfaceTags tags(of);
@@ -293,7 +295,7 @@ TEST(Refill, FindsNothingWhereEveryFillingIsWorse) {
   HybridMesh hybrid(mesh, std::vector<bool>(4));
   const SurfaceTags tags = no_tags();
   const GapMesh gap(hybrid, tags, {});
-  EXPECT_FALSE(Refill(gap).find(std::vector<std::int32_t>{0, 1, 2, 3}).has_value());
+  EXPECT_FALSE(Refill(gap).find(list_of<GapIndex>({0, 1, 2, 3})).has_value());
 }
 
 TEST(MergeStars, TwoVerticesOnBothSidesOfAFacetBecomeOne) {
@@ -365,7 +367,7 @@ struct Block {
   // By plane of the cube: the area of the tagged triangles in it.
   std::map<std::pair<int, double>, double> areas() const {
     std::map<std::pair<int, double>, double> result;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags.size()); ++i) {
+    for (const auto i : indices<hybrid::TaggedTriangle>(tags.size())) {
       const auto& [a, b, c] = tags.triangle(i);
       if (tags.find(tags.triangle(i)) != i) continue;
       const Vec3 p = hybrid.points[a], q = hybrid.points[b], r = hybrid.points[c];
@@ -390,7 +392,7 @@ TEST(MergeOnSurface, FlatSidesAndStraightEdgesLoseVerticesAndStayWhereTheyAre) {
     for (const int j : {0, 2})
       for (const int k : {0, 2}) {
         bool used = false;
-        block.hybrid.for_tets_at(testing::lattice_vertex(2, i, j, k), [&](std::int32_t) { used = true; });
+        block.hybrid.for_tets_at(testing::lattice_vertex(2, i, j, k), [&](TetIndex) { used = true; });
         EXPECT_TRUE(used) << "corner " << i << j << k;
       }
 }
@@ -400,7 +402,7 @@ TEST(MergeOnSurface, TheSurfaceStaysNearAndTheVolumeBetweenIsKnown) {
   const Vertex middle = testing::lattice_vertex(2, 1, 1, 2);
   auto is_there = [&](const Block& block) {
     bool used = false;
-    block.hybrid.for_tets_at(middle, [&](std::int32_t) { used = true; });
+    block.hybrid.for_tets_at(middle, [&](TetIndex) { used = true; });
     return used;
   };
   for (const double height : {0.02, -0.02, 0.1}) {
@@ -427,7 +429,7 @@ TEST(MergeOnSurface, VerticesOfChosenCellsAndSharedOnesStay) {
   const auto lattice = testing::make_lattice(2);
   Random random(1);
   const auto all = testing::random_choice(lattice, 2, random);
-  HybridMesh full = choice::Selection(block.mesh, block.tags, lattice.cubes, all).take_mesh();
+  HybridMesh full = choice::Selection(block.mesh, block.tags, lattice.cubes, testing::candidates_in(all)).take_mesh();
   GapMesh gap(full, block.tags, {});
   EXPECT_EQ(merge_on_surface(gap, block.tags, block.input), 0);
 }
@@ -446,7 +448,7 @@ TEST(MergeOnSurface, ABorderOfTagsStaysWhereItIs) {
   GapMesh gap(hybrid, tags, {});
   EXPECT_GT(merge_on_surface(gap, tags, input), 0);
   double area = 0;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(tags.size()); ++i) {
+  for (const auto i : indices<hybrid::TaggedTriangle>(tags.size())) {
     if (tags.find(tags.triangle(i)) != i || tags.tag_of(i) != 8) continue;
     const auto& [a, b, c] = tags.triangle(i);
     for (const Vertex v : {a, b, c}) EXPECT_LE(hybrid.points[v].x, 1);
@@ -495,7 +497,7 @@ TEST(FaceCosts, CountCellsThatHaveTooFewNeighbours) {
   mesh.tets = {{0, 1, 2, 4}, {0, 3, 1, 4}, {0, 2, 3, 4}, {1, 3, 2, 4}};
   mesh.tet_tags = {1, 1, 1, 1};
   const SurfaceTags tags = no_tags();
-  const std::vector<std::int32_t> all{0, 1, 2, 3}, first{0}, two{0, 1};
+  const auto all = list_of<GapIndex>({0, 1, 2, 3}), first = list_of<GapIndex>({0}), two = list_of<GapIndex>({0, 1});
   HybridMesh whole(mesh, std::vector<bool>(4));
   EXPECT_EQ(cost_of_faces(GapMesh(whole, tags, {}), all), 0);
   EXPECT_EQ(cost_of_faces(GapMesh(whole, tags, {}), first), 0) << "neighbours are found in the mesh";
@@ -513,7 +515,7 @@ TEST(FaceCosts, CountEachFaceOnceAndWhatLiesBeyond) {
   HybridMesh hybrid(mesh, std::vector<bool>(2));
   const SurfaceTags tags = no_tags();
   GapMesh gap(hybrid, tags, {});
-  const std::vector<std::int32_t> both{0, 1}, one{0};
+  const auto both = list_of<GapIndex>({0, 1}), one = list_of<GapIndex>({0});
   const double cost = cost_of_faces(gap, both);
   EXPECT_GT(cost, 0.5);
   // With one neighbour a cell has no determinant, which costs 1.
@@ -539,9 +541,10 @@ struct ConformingScene {
       : lattice(lattice_of(seed, random)),
         tags(lattice.mesh),
         input(lattice.mesh, TetAdjacency(lattice.mesh, "test")),
-        hybrid(choice::Selection(lattice.mesh, tags, lattice.cubes,
-                                 testing::random_choice(lattice, random.uniform(0.1, 0.9), random))
-                   .take_mesh()) {
+        hybrid(
+            choice::Selection(lattice.mesh, tags, lattice.cubes,
+                              testing::candidates_in(testing::random_choice(lattice, random.uniform(0.1, 0.9), random)))
+                .take_mesh()) {
     conform::make_conforming(hybrid, tags, lattice.cubes, 1e-4);
   }
   // What is to fall.
@@ -549,7 +552,7 @@ struct ConformingScene {
     const GapMesh gap(hybrid, tags, {});
     const auto cells = all_cells(gap);
     double sum = passes == Passes::merge ? 0 : cost_of_faces(gap, cells);
-    for (const std::int32_t c : cells) sum += cost_of(gap.cell(c).quality);
+    for (const GapIndex c : cells) sum += cost_of(gap.cell(c).quality);
     return sum;
   }
   FewerCells make_fewer(Passes passes) { return make_fewer_cells(hybrid, {tags, input}, {}, passes); }
@@ -595,7 +598,7 @@ TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
 // are on the surface.
 TEST(FewerCells, AHexGivesWayWhereACellBesideItStaysPoor) {
   const auto poor_cells = [](const GapMesh& gap) {
-    return std::ranges::count_if(all_cells(gap), [&](std::int32_t c) { return gap.cell(c).quality < least_wanted; });
+    return std::ranges::count_if(all_cells(gap), [&](GapIndex c) { return gap.cell(c).quality < least_wanted; });
   };
   for (const double thickness : {0.09, 0.1}) {
     SCOPED_TRACE(thickness);
@@ -604,8 +607,8 @@ TEST(FewerCells, AHexGivesWayWhereACellBesideItStaysPoor) {
       if (p.z == 1) p.z = thickness;
     add_missing_boundary_triangles(lattice.mesh, TetAdjacency(lattice.mesh, "test"), 0);
     const SurfaceTags tags(lattice.mesh);
-    graph::IndependentSet chosen(lattice.cubes.size() - 1);
-    std::iota(chosen.begin(), chosen.end(), 1);
+    std::vector<CandidateIndex> chosen(lattice.cubes.size() - 1);
+    std::iota(chosen.begin(), chosen.end(), CandidateIndex(1));
     HybridMesh hybrid = choice::Selection(lattice.mesh, tags, lattice.cubes, chosen, {}).take_mesh();
     conform::make_conforming(hybrid, tags, lattice.cubes, 1e-4);
     GapMesh gap(hybrid, tags, {});

@@ -52,7 +52,7 @@ inline Lattice make_lattice(
             tet[step + 1] = corner(at[0], at[1], at[2]);
           }
           if (tet_determinant(mesh.points, tet) < 0) std::swap(tet[2], tet[3]);
-          cubes.tets.push_back(static_cast<std::int32_t>(mesh.tets.size()));
+          cubes.tets.emplace_back(mesh.tets.size());
           mesh.tets.push_back(tet);
           mesh.tet_tags.push_back(region(i, j, k));
         } while (std::next_permutation(order.begin(), order.end()));
@@ -76,6 +76,10 @@ inline void jitter(Lattice& lattice, double amount, Random& random) {
         Vec3& at = lattice.mesh.points[lattice_vertex(n, i, j, k)];
         at += {random.uniform(-amount, amount), random.uniform(-amount, amount), random.uniform(-amount, amount)};
       }
+}
+
+inline std::vector<CandidateIndex> candidates_in(const IndependentSet& set) {
+  return {set.begin(), set.end()};
 }
 
 inline IndependentSet random_choice(const Lattice& lattice, double share, Random& random) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
 
 #include "assemble_lattice.hpp"
 #include "common/mesh/quality.hpp"
@@ -40,7 +41,7 @@ Lattice tagged_lattice(
         if (!has(i, j, k)) continue;
         const std::size_t cube = static_cast<std::size_t>((i * n + j) * n + k);
         for (std::size_t t = 6 * cube; t < 6 * cube + 6; ++t) {
-          lattice.cubes.tets.push_back(static_cast<std::int32_t>(lattice.mesh.tets.size()));
+          lattice.cubes.tets.emplace_back(lattice.mesh.tets.size());
           lattice.mesh.tets.push_back(whole.mesh.tets[t]);
           lattice.mesh.tet_tags.push_back(whole.mesh.tet_tags[t]);
         }
@@ -71,7 +72,9 @@ LayerOptions options_with(std::vector<AskedWall> walls, double first_height, dou
 }
 
 AssembleResult with_layers(const Lattice& lattice, const LayerOptions& options) {
-  return assemble::assemble(lattice.mesh, lattice.cubes, choice::all_of(lattice.cubes), {}, {}, options);
+  graph::IndependentSet all(lattice.cubes.size());
+  std::iota(all.begin(), all.end(), 0);
+  return assemble::assemble(lattice.mesh, lattice.cubes, all, {}, {}, options);
 }
 
 template <class Call>

@@ -3,6 +3,7 @@
 
 #include "assemble_lattice.hpp"
 #include "common/run/error.hpp"
+#include "tests/unit/list_of.hpp"
 #include "tools/assemble/assemble.hpp"
 
 namespace hexpipe {
@@ -29,7 +30,7 @@ std::string error_of(const Lattice& lattice, const Candidates& candidates, const
 
 void append_copy(Candidates& candidates, std::size_t i) {
   const auto interior = candidates.interior_tets_of(i);
-  const std::vector<std::int32_t> tets(interior.begin(), interior.end());
+  const std::vector<TetIndex> tets(interior.begin(), interior.end());
   candidates.vertices.push_back(candidates.vertices[i]);
   candidates.kind.push_back(candidates.kind[i]);
   candidates.quality.push_back(candidates.quality[i]);
@@ -77,7 +78,7 @@ TEST(Selection, VerticesInsideACellAreDropped) {
       lattice.mesh.tets[0] = part;
       continue;
     }
-    lattice.cubes.tets.push_back(static_cast<std::int32_t>(lattice.mesh.tets.size()));
+    lattice.cubes.tets.emplace_back(lattice.mesh.tets.size());
     lattice.mesh.tets.push_back(part);
     lattice.mesh.tet_tags.push_back(1);
   }
@@ -135,7 +136,7 @@ TEST(Selection, OverlappingCandidatesAreAnError) {
 TEST(Selection, CandidatesOfAnotherMeshAreAnError) {
   const auto lattice = make_lattice(2);
   auto shifted = lattice.cubes;
-  for (auto& t : shifted.tets) t = (t + 1) % 48;
+  for (TetIndex& t : shifted.tets) t = TetIndex((t + 1) % 48);
   EXPECT_THAT(error_of(lattice, shifted, {0}), HasSubstr("candidates of this mesh"));
   const auto larger = make_lattice(3);
   EXPECT_NE(error_of(lattice, larger.cubes, {0}), "no error");
@@ -168,7 +169,7 @@ TEST(Selection, DiagonalsThatAreEdgesOfOthersAreAnError) {
   pyramids.vertices = {{0, 3, 2, 1, 4, -1, -1, -1}, {0, 2, 7, 6, 5, -1, -1, -1}};
   pyramids.kind = {CellKind::pyramid, CellKind::pyramid};
   pyramids.quality = pyramids.volume = {0.5, 0.5};
-  pyramids.tets = {0, 1, 3, 4};
+  pyramids.tets = testing::list_of<TetIndex>({0, 1, 3, 4});
   pyramids.tet_offsets = {0, 2, 4};
   pyramids.boundary_tet_offsets = {0, 0, 0};
   EXPECT_EQ(error_of(lattice, pyramids, {0}), "no error");
@@ -196,7 +197,7 @@ TEST(Selection, PrismsOfHalfACubeTakePart) {
   prisms.kind.push_back(CellKind::prism);
   prisms.quality.push_back(0.7);
   prisms.volume.push_back(0.5);
-  for (std::int32_t t = 0; t < 6; ++t) {
+  for (const auto t : indices<TetIndex>(6)) {
     Vec3 middle{};
     for (Vertex v : lattice.mesh.tets[t]) middle += lattice.mesh.points[v] * 0.25;
     if (middle.x > middle.y) prisms.tets.push_back(t);

@@ -327,7 +327,7 @@ TEST(Split, AVertexBesideFlatTets) {
   HybridMesh hybrid(mesh, std::vector<bool>(mesh.tets.size(), false));
   auto worst_tet = [&] {
     double worst = 1;
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(hybrid.tet_count()); ++t) {
+    for (const auto t : indices<TetIndex>(hybrid.tet_count())) {
       if (!hybrid.is_alive(t)) continue;
       const auto at = corner_points(hybrid.points, hybrid.tet(t));
       worst = std::min(worst, least_corner_scaled_jacobian(CellKind::tet, std::span<const Vec3>(at).first(4)));

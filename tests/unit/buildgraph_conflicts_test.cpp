@@ -95,7 +95,7 @@ TEST(ConflictRules, BoundaryTetsTakeNoPart) {
   Candidates pair;
   add_candidate(pair, hex, first_hex, {0});
   add_candidate(pair, hex, {4, 5, 6, 7, 14, 15, 16, 17}, {1});
-  pair.boundary_tets = {2, 2};
+  pair.boundary_tets = {TetIndex(2), TetIndex(2)};
   pair.boundary_tet_offsets = {0, 1, 2};
   EXPECT_FALSE(in_conflict(pair, 0, 1));
   EXPECT_EQ(conflict_graph(pair, {}, "test").edge_count(), 0);
@@ -169,7 +169,7 @@ TEST(Buildgraph, NeedsNoMemoryForNumbersThatAreNotThere) {
   for (auto& row : candidates.vertices)
     for (Vertex& v : row)
       if (v >= 0) v = std::numeric_limits<Vertex>::max() - 1000 + v;
-  for (std::int32_t& tet : candidates.tets) tet = std::numeric_limits<Vertex>::max() - 1000 + tet;
+  for (TetIndex& tet : candidates.tets) tet = TetIndex(std::numeric_limits<std::int32_t>::max() - 1000 + tet);
   const auto dense = with_dense_ids(candidates);
   ASSERT_TRUE(dense);
   validate(*dense, "test");

@@ -115,7 +115,7 @@ void add_quad(const std::vector<std::int32_t>& a, const std::vector<std::int32_t
   std::vector<std::int32_t> both;
   std::ranges::set_symmetric_difference(a, b, std::back_inserter(both));
   quads.quads.push_back({});
-  quads.candidates_at.insert(quads.candidates_at.end(), both.begin(), both.end());
+  for (const std::int32_t candidate : both) quads.candidates_at.emplace_back(candidate);
   quads.offsets.push_back(std::ssize(quads.candidates_at));
   problem.prices.push_back(price);
 }

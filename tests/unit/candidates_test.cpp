@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/run/error.hpp"
+#include "tests/unit/list_of.hpp"
 
 namespace hexpipe {
 namespace {
@@ -21,9 +22,9 @@ Candidates a_hex_and_a_pyramid() {
   c.kind = {CellKind::hex, CellKind::pyramid};
   c.quality = {1, 0.5};
   c.volume = {1, 0.25};
-  c.tets = {0, 1, 2, 3, 4, 5, 6};
+  c.tets = testing::list_of<TetIndex>({0, 1, 2, 3, 4, 5, 6});
   c.tet_offsets = {0, 5, 7};
-  c.boundary_tets = {9};
+  c.boundary_tets = {TetIndex(9)};
   c.boundary_tet_offsets = {0, 1, 1};
   return c;
 }
@@ -56,8 +57,8 @@ TEST(Candidates, SpoiltOnesAreRejected) {
   expect_rejected([](Candidates& c) { c.tet_offsets = {0, 5, 1'000'000'000'000}; }, "up to 7");
   expect_rejected([](Candidates& c) { c.boundary_tet_offsets.clear(); }, "3 offsets of boundary tets, found 0");
   expect_rejected([](Candidates& c) { std::swap(c.tets[1], c.tets[2]); }, "ascending tets of candidate 1");
-  expect_rejected([](Candidates& c) { c.tets[6] = 5; }, "ascending tets of candidate 2");
-  expect_rejected([](Candidates& c) { c.boundary_tets[0] = -1; }, "boundary tets of candidate 1, found -1");
+  expect_rejected([](Candidates& c) { c.tets[6] = TetIndex(5); }, "ascending tets of candidate 2");
+  expect_rejected([](Candidates& c) { c.boundary_tets[0] = no_index; }, "boundary tets of candidate 1, found -1");
 }
 
 TEST(Candidates, AreCheckedAgainstTheirMesh) {

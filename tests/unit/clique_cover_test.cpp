@@ -85,13 +85,13 @@ TEST(TetCliques, AreTheCandidatesOfEachTet) {
   for (const std::vector<std::int32_t>& tets : {std::vector<std::int32_t>{0, 1}, {1, 2}, {1, 7}, {2, 7}, {5}}) {
     candidates.vertices.emplace_back();
     candidates.kind.push_back(CellKind::hex);
-    candidates.tets.insert(candidates.tets.end(), tets.begin(), tets.end());
+    for (const std::int32_t t : tets) candidates.tets.emplace_back(t);
     candidates.tet_offsets.push_back(static_cast<std::int64_t>(candidates.tets.size()));
   }
   const CliqueCover cliques = cliques_of_tets(candidates);
   EXPECT_THAT(cliques.offsets, ElementsAre(0, 3, 5, 7));
   EXPECT_THAT(cliques.members, ElementsAre(0, 1, 2, 1, 3, 2, 3));
-  for (std::int32_t& tet : candidates.tets) tet += std::numeric_limits<std::int32_t>::max() - 7;
+  for (TetIndex& tet : candidates.tets) tet = TetIndex(tet + std::numeric_limits<std::int32_t>::max() - 7);
   EXPECT_EQ(cliques_of_tets(candidates).members, cliques.members) << "numbers that take no memory";
   EXPECT_EQ(cliques_of_tets({}).size(), 0);
 }

@@ -273,7 +273,7 @@ TEST(Findhex, InvertedAndFlatTetsAreCountedAndNotUsed) {
   EXPECT_GT(result.candidates.size(), 0u);
   const auto& signs = result.findings.orientation.signs;
   for (const auto* tets : {&result.candidates.tets, &result.candidates.boundary_tets})
-    for (const std::int32_t tet : *tets) EXPECT_EQ(signs[tet], 1);
+    for (const TetIndex tet : *tets) EXPECT_EQ(signs[tet], 1);
   EXPECT_THAT(warnings_about(result.findings), ElementsAre(HasSubstr("inverted")));
 
   mesh = kuhn_lattice(3);
@@ -330,7 +330,7 @@ TEST(Findhex, TetsAreNumberedAsTheMeshHasThem) {
   ASSERT_EQ(found.vertices, expected.vertices);
   for (std::size_t i = 0; i < found.size(); ++i) {
     std::vector<std::int32_t> tets;
-    for (const std::int32_t tet : found.interior_tets_of(i)) tets.push_back(order[tet]);
+    for (const TetIndex tet : found.interior_tets_of(i)) tets.push_back(order[tet]);
     std::sort(tets.begin(), tets.end());
     EXPECT_THAT(tets, ElementsAreArray(expected.interior_tets_of(i)));
   }

@@ -107,11 +107,11 @@ TEST(Submesh, TetsAroundMarkedPointsInTheirOrder) {
       for (const Tet& tet : mesh.tets)
         for (const Vertex v : tet)
           for (const Vertex w : tet) distance[v] = std::min(distance[v], distance[w] + 1);
-    std::vector<std::int32_t> tets;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    std::vector<TetIndex> tets;
+    for (const auto t : indices<TetIndex>(mesh.tets.size()))
       for (const Vertex v : mesh.tets[t])
         if (distance[v] <= edges) {
-          tets.push_back(static_cast<std::int32_t>(t));
+          tets.push_back(t);
           break;
         }
     const Submesh around = submesh_around(mesh, marked, edges);

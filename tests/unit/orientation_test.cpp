@@ -97,7 +97,7 @@ TEST(CheckSides, RefusesTwoCopiesOfATet) {
   EXPECT_NO_THROW(check_sides(mesh, TetAdjacency(mesh, "m.mesh"), "m.mesh"));
   mesh.tets = {mesh.tets[0], mesh.tets[0]};
   const TetAdjacency adjacency(mesh, "m.mesh");
-  const std::vector<std::int32_t> numbers{7, 5};
+  const std::vector numbers{TetIndex(7), TetIndex(5)};
   EXPECT_THAT([&] { check_sides(mesh, adjacency, "m.mesh", numbers); },
               ThrowsMessage<DataError>(StartsWith(
                   "m.mesh: expected tets on the two sides of a facet, found tets 6 and 8 on one side of that at ")));

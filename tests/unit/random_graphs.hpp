@@ -38,7 +38,7 @@ inline void add_candidate(Candidates& to, CellKind kind, std::vector<Vertex> cor
   to.kind.push_back(kind);
   to.quality.push_back(0.5);
   to.volume.push_back(volume);
-  to.tets.insert(to.tets.end(), tets.begin(), tets.end());
+  for (const std::int32_t t : tets) to.tets.emplace_back(t);
   to.tet_offsets.push_back(static_cast<std::int64_t>(to.tets.size()));
   to.boundary_tet_offsets.push_back(0);
 }

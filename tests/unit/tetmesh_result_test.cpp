@@ -35,10 +35,10 @@ TetmeshResult run(const Facets& facets, const TetmeshOptions& options) {
 void expect_triangles_bound_the_tets(const TetMesh& mesh) {
   const TetAdjacency adjacency(mesh, "mesh");
   std::vector<Triangle> bounding;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+  for (const auto t : indices<TetIndex>(mesh.tets.size())) {
     EXPECT_GT(tet_determinant(mesh.points, mesh.tets[t]), 0);
     for (std::size_t facet = 0; facet < 4; ++facet) {
-      const std::int32_t beyond = adjacency.tet_beyond(static_cast<std::int32_t>(t), static_cast<int>(facet));
+      const TetIndex beyond = adjacency.tet_beyond(t, static_cast<int>(facet));
       if (beyond != no_index && mesh.tet_tags[beyond] == mesh.tet_tags[t]) continue;
       Triangle triangle;
       for (std::size_t i = 0; i < 3; ++i) triangle[i] = mesh.tets[t][TetTopology::triangles[facet][i]];

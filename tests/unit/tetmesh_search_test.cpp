@@ -226,7 +226,7 @@ void expect_hexes_of(const TetMesh& mesh, std::span<const ChosenHex> hexes) {
   for (const ChosenHex& hex : hexes) {
     double volume = 0;
     ASSERT_GE(hex.interior_tets.size(), 5u);
-    for (const std::int32_t t : hex.interior_tets) {
+    for (const TetIndex t : hex.interior_tets) {
       ++uses[t];
       volume += tet_determinant(mesh.points, mesh.tets[t]) / 6;
       for (const Vertex v : mesh.tets[t])
@@ -275,7 +275,7 @@ TEST(ChooseHexes, ForgetsASliverThatGoes) {
   mesh.tet_tags.assign(mesh.tets.size(), 1);
   const std::vector<ChosenHex> with_sliver = choose_hexes(mesh, 1);
   ASSERT_EQ(with_sliver.size(), 1u);
-  ASSERT_EQ(with_sliver.front().boundary_tets, (std::vector<std::int32_t>{6}));
+  ASSERT_EQ(with_sliver.front().boundary_tets, std::vector{TetIndex(6)});
   TetMesh without = mesh;
   without.tets.pop_back();
   without.tet_tags.pop_back();
@@ -313,7 +313,7 @@ TEST(JudgedMesh, HexesWithOpenQuadsAreWorthLess) {
   const JudgedMesh partly = judged(testing::mesh_of(surface, points_inside(0.8)));
   EXPECT_FALSE(partly.left.empty());
   EXPECT_LT(partly.total_worth(), partly.hex_volume() - 0.1);
-  for (const std::int32_t t : partly.left) EXPECT_EQ(partly.hex_of_tet[t], no_index);
+  for (const TetIndex t : partly.left) EXPECT_EQ(partly.hex_of_tet[t], no_index);
 }
 
 TEST(PointSearch, BringsHexesAndIsTheSameEveryTime) {

@@ -26,7 +26,8 @@ namespace {
 // Shares of the time that a mesh takes, for the line of progress.
 constexpr double input_ends = 0.02, exchange_ends = 0.3, prisms_end = 0.38, build_ends = 0.98;
 
-void check_chosen(const graph::IndependentSet& chosen, const Candidates& candidates, const choice::InputNames& names) {
+std::vector<CandidateIndex> checked_choice(const graph::IndependentSet& chosen, const Candidates& candidates,
+                                           const choice::InputNames& names) {
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (chosen[i] < 0 || static_cast<std::size_t>(chosen[i]) >= candidates.size())
       throw DataError::at(names.solution, "expected candidates from 1 to {}, found {}", candidates.size(),
@@ -35,6 +36,7 @@ void check_chosen(const graph::IndependentSet& chosen, const Candidates& candida
       throw DataError::at(names.solution, "expected ascending candidates, found {} after {}", chosen[i] + 1,
                           chosen[i - 1] + 1);
   }
+  return {chosen.begin(), chosen.end()};
 }
 
 // The input and what tells its facets apart, all made once. The adjacency that this takes is gone afterwards: it is
@@ -48,11 +50,9 @@ struct Prepared {
   const hybrid::BoundaryQuads boundary;  // until then, too
 };
 
-Prepared checked_input(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
-                       const choice::InputNames& names) {
+Prepared checked_input(TetMesh mesh, const Candidates& candidates, const choice::InputNames& names) {
   const Step step("checking the input", 0, input_ends);
   validate_against(candidates, mesh, names.candidates.c_str());
-  check_chosen(chosen, candidates, names);
   check_orientation(mesh, names);
   const TetAdjacency adjacency(mesh, names.mesh.c_str());
   check_sides(mesh, adjacency, names.mesh.c_str());
@@ -82,19 +82,20 @@ struct Cells {
 };
 
 // The chosen cells without those at holes, which are counted.
-graph::IndependentSet without_those_at_holes(const hybrid::SurfaceTags& tags, const Candidates& candidates,
-                                             const graph::IndependentSet& chosen, GivenBackCounts& given_back) {
-  graph::IndependentSet at_holes, rest;
+std::vector<CandidateIndex> without_those_at_holes(const hybrid::SurfaceTags& tags, const Candidates& candidates,
+                                                   const std::vector<CandidateIndex>& chosen,
+                                                   GivenBackCounts& given_back) {
+  std::vector<CandidateIndex> at_holes, rest;
   std::ranges::partition_copy(chosen, std::back_inserter(at_holes), std::back_inserter(rest),
                               [&](CandidateIndex c) { return closes_a_hole(tags, candidates, c); });
   given_back.add(candidates, at_holes, conform::GivenBack::diagonal_on_surface);
   return rest;
 }
 
-Cells cells_of(const Prepared& at, const Candidates& candidates, const graph::IndependentSet& chosen,
+Cells cells_of(const Prepared& at, const Candidates& candidates, const std::vector<CandidateIndex>& chosen,
                const choice::InputNames& names) {
   GivenBackCounts given_back;
-  graph::IndependentSet rest = without_those_at_holes(at.tags, candidates, chosen, given_back);
+  std::vector<CandidateIndex> rest = without_those_at_holes(at.tags, candidates, chosen, given_back);
   return {choice::Selection(at.input.mesh, at.tags, candidates, std::move(rest), names), given_back};
 }
 
@@ -102,7 +103,7 @@ Cells cells_of(const Prepared& at, const Candidates& candidates, const graph::In
 Cells cells_of(const Prepared& at, const Candidates& candidates, choice::Selection selection,
                const choice::InputNames& names) {
   GivenBackCounts given_back;
-  graph::IndependentSet rest = without_those_at_holes(at.tags, candidates, selection.chosen(), given_back);
+  std::vector<CandidateIndex> rest = without_those_at_holes(at.tags, candidates, selection.chosen(), given_back);
   if (rest != selection.chosen())
     selection = choice::Selection(at.input.mesh, at.tags, candidates, std::move(rest), names);
   return {std::move(selection), given_back};
@@ -158,7 +159,7 @@ struct SelectedCells {
 // The mesh of a selection is large, and the search does not need it: only the choice comes in.
 SelectedCells exchanged(const Prepared& at, const Candidates& candidates, const choice::CheckedChoice& choice,
                         const choice::InputNames& names) {
-  const auto select = [&](graph::IndependentSet chosen) {
+  const auto select = [&](std::vector<CandidateIndex> chosen) {
     return choice::Selection(at.input.mesh, at.tags, candidates, std::move(chosen), names);
   };
   choice::Exchange exchange = choice::exchange_hexes(at.input.mesh, at.boundary, candidates, choice);
@@ -172,7 +173,7 @@ SelectedCells exchanged(const Prepared& at, const Candidates& candidates, const 
 }
 
 // The chosen cells, or others in exchange.
-SelectedCells selected(const Prepared& at, const Candidates& candidates, const graph::IndependentSet& chosen,
+SelectedCells selected(const Prepared& at, const Candidates& candidates, const std::vector<CandidateIndex>& chosen,
                        bool exchanges, const choice::InputNames& names) {
   if (!exchanges) return {choice::Selection(at.input.mesh, at.tags, candidates, chosen, names), std::nullopt};
   const Step step("exchanging hexes", input_ends, exchange_ends);
@@ -189,8 +190,8 @@ AssembleResult filled_result_of(Prepared& at, const Candidates& candidates, std:
   choice::InputNames names_of_cells = names;
   for (const CandidateIndex candidate : selection->chosen()) names_of_cells.origins.push_back({0, candidate});
   // Prisms have no number that a user could know: their numbers follow those of the candidates.
-  const auto first = static_cast<CandidateIndex>(candidates.size());
-  for (CandidateIndex i = 0; i < filling.prisms; ++i) names_of_cells.origins.push_back({0, first + i});
+  const auto first = static_cast<std::int32_t>(candidates.size());
+  for (std::int32_t i = 0; i < filling.prisms; ++i) names_of_cells.origins.push_back({0, first + i});
   selection.reset();
   step.reset();
   Cells cells = cells_of(at, filling.cells, choice::all_of(filling.cells), names_of_cells);
@@ -199,7 +200,7 @@ AssembleResult filled_result_of(Prepared& at, const Candidates& candidates, std:
   return result;
 }
 
-AssembleResult without_layers(Prepared& at, const Candidates& candidates, const graph::IndependentSet& chosen,
+AssembleResult without_layers(Prepared& at, const Candidates& candidates, const std::vector<CandidateIndex>& chosen,
                               const AssembleOptions& options, const choice::InputNames& names) {
   const BuildRules rules = build_rules(options);
   const bool exchanges = rules.is_conforming && options.exchange == AssembleOptions::Exchange::quads;
@@ -276,9 +277,10 @@ BuildRules build_rules(const AssembleOptions& options) {
           .merges = is_conforming && options.smooth > 0 && options.merge == AssembleOptions::Merge::vertices};
 }
 
-AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
+AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& solution,
                         const AssembleOptions& options, const choice::InputNames& names, const LayerOptions& layers) {
-  Prepared at = checked_input(std::move(mesh), candidates, chosen, names);
+  const std::vector<CandidateIndex> chosen = checked_choice(solution, candidates, names);
+  Prepared at = checked_input(std::move(mesh), candidates, names);
   const AskedLayers asked(at.input.mesh, layers, names);
   AssembleResult result = without_layers(at, candidates, chosen, options, names);
   if (asked.any()) add_layers(asked, at.input, options.smooth, result);
@@ -287,9 +289,8 @@ AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph:
 
 AssembleResult assemble_piece(TetMesh mesh, const Candidates& cells, const BuildRules& rules,
                               const choice::InputNames& names) {
-  const graph::IndependentSet all = choice::all_of(cells);
-  Prepared at = checked_input(std::move(mesh), cells, all, names);
-  return result_of(at, cells, cells_of(at, cells, all, names), rules, names);
+  Prepared at = checked_input(std::move(mesh), cells, names);
+  return result_of(at, cells, cells_of(at, cells, choice::all_of(cells), names), rules, names);
 }
 
 }  // namespace hexpipe::assemble

@@ -23,7 +23,7 @@ struct AssembleResult {
   AssembleStatistics statistics;
   // By point: its vertex in the input, or for an added point a number from the input's number of points on.
   std::vector<Vertex> origin;
-  graph::IndependentSet left;  // the candidates that are cells of the mesh, ascending
+  std::vector<CandidateIndex> left;  // the candidates that are cells of the mesh, ascending
 };
 
 // Throws DataError, with the mesh's name and the number of the tet from 1, if one is not positively oriented.
@@ -35,7 +35,7 @@ void check_orientation(const TetMesh& mesh, const choice::InputNames& names);
 //
 // Throws DataError, with the name of the input, if a tet is not positively oriented, if candidates are not of this
 // mesh, if chosen ones do not fit together or are not valid, or if the mesh has no such walls.
-AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& chosen,
+AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& solution,
                         const AssembleOptions& options, const choice::InputNames& names = {},
                         const LayerOptions& layers = {});
 

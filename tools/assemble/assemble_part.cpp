@@ -120,7 +120,7 @@ PartResult assemble_part(pieces::PartView view, const std::vector<std::string>& 
     rules.seam = &input.seam;
     AssembleResult assembled =
         assemble_piece(std::move(input.mesh), input.cells, rules, names_of_cells(bundle_names, view, input.view_cells));
-    graph::IndependentSet given_back;
+    std::vector<CandidateIndex> given_back;
     std::ranges::set_difference(choice::all_of(input.cells), assembled.left, std::back_inserter(given_back));
     for (const CandidateIndex c : given_back) piece.given_back.push_back(view.keys.key[input.view_cells[c]]);
     piece.point_number = point_numbers(assembled.origin, input, view.part);

@@ -59,22 +59,23 @@ bool looks_inverted(const hybrid::HybridMesh& mesh, const hybrid::HybridCell& ce
   return hexpipe::looks_inverted(cell.kind, mesh.points, corners);
 }
 
-void sort_unique(graph::IndependentSet& candidates) {
+void sort_unique(std::vector<CandidateIndex>& candidates) {
   std::ranges::sort(candidates);
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
 }
 
 // Candidates whose cells are in the mesh, or went back to their tets.
-void append_candidates(const hybrid::HybridMesh& mesh, bool alive, graph::IndependentSet& out) {
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
+void append_candidates(const hybrid::HybridMesh& mesh, bool alive, std::vector<CandidateIndex>& out) {
+  for (const auto c : indices<CellIndex>(mesh.cell_count()))
     if (const hybrid::HybridCell& cell = mesh.cell(c); cell.alive == alive && cell.candidate != no_index)
       out.push_back(cell.candidate);
 }
 
 // By point: the candidate to whose quad the pyramid with this apex belongs. Appends the owners of poor pyramids.
-std::vector<CandidateIndex> owners_of_apexes(const hybrid::HybridMesh& mesh, graph::IndependentSet& owners_of_poor) {
+std::vector<CandidateIndex> owners_of_apexes(const hybrid::HybridMesh& mesh,
+                                             std::vector<CandidateIndex>& owners_of_poor) {
   std::vector<CandidateIndex> owner_of_point(mesh.points.size(), no_index);
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
+  for (const auto c : indices<CellIndex>(mesh.cell_count())) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive || cell.candidate != no_index) continue;
     const CandidateIndex owner = mesh.cell(mesh.partner_at(cell.quad(0), c)).candidate;
@@ -88,10 +89,10 @@ std::vector<CandidateIndex> owners_of_apexes(const hybrid::HybridMesh& mesh, gra
 // The candidates to which poor pyramids and poor tets made for conformity belong. An inverted tet at a vertex without a
 // pyramid was made for a cell that has gone back since: then all of these count, so that they are left out from the
 // start.
-graph::IndependentSet owners_of_poor_elements(const hybrid::HybridMesh& mesh, std::size_t input_points) {
-  graph::IndependentSet owners;
+std::vector<CandidateIndex> owners_of_poor_elements(const hybrid::HybridMesh& mesh, std::size_t input_points) {
+  std::vector<CandidateIndex> owners;
   const std::vector<CandidateIndex> owner_of_point = owners_of_apexes(mesh, owners);
-  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tet_count()); ++t) {
+  for (const auto t : indices<TetIndex>(mesh.tet_count())) {
     if (!mesh.is_alive(t)) continue;
     // The vertex added last made the tet.
     const Vertex newest = *std::ranges::max_element(mesh.tet(t));
@@ -119,16 +120,16 @@ class Builder {
   shape::SlidingSurface sliding(const hybrid::Extract& extracted) const {
     return {input_.surface, input_.mesh.points, extracted.origin, rules_.is_shared()};
   }
-  graph::IndependentSet conform(Attempt& attempt, bool is_last) const;
+  std::vector<CandidateIndex> conform(Attempt& attempt, bool is_last) const;
   void untangle_in_place(Attempt& attempt) const;
   void smooth_and_mend(Attempt& attempt) const;
   gap::FewerCells make_fewer_cells(Attempt& attempt, gap::Passes passes) const;
   void merge_and_smooth(Attempt& attempt) const;
   void improve(Attempt& attempt, int rounds) const;
   bool mend_flat_tets(Attempt& attempt) const;
-  graph::IndependentSet poor_candidates(const hybrid::HybridMesh& mesh) const;
+  std::vector<CandidateIndex> poor_candidates(const hybrid::HybridMesh& mesh) const;
   void check_cells_left(const hybrid::HybridMesh& mesh) const;
-  Attempt without(graph::IndependentSet& kept, const graph::IndependentSet& given_back) const;
+  Attempt without(std::vector<CandidateIndex>& kept, const std::vector<CandidateIndex>& given_back) const;
   Built finish(Attempt attempt, const GivenBackCounts& given_back) const;
 
   const AssembleInput& input_;
@@ -139,7 +140,7 @@ class Builder {
 
 // Leaves inverted elements where nothing better is found, unless it is the last attempt, and untangles them. Returns
 // the candidates for which that does not succeed.
-graph::IndependentSet Builder::conform(Attempt& attempt, bool is_last) const {
+std::vector<CandidateIndex> Builder::conform(Attempt& attempt, bool is_last) const {
   if (!rules_.is_conforming) return {};
   const Step step("making quads meet", 0, conforming_ends);
   attempt.conformity =
@@ -240,9 +241,9 @@ bool Builder::mend_flat_tets(Attempt& attempt) const {
 }
 
 // Candidates that are poor hexes after smoothing, and prisms that some readers would turn round.
-graph::IndependentSet Builder::poor_candidates(const hybrid::HybridMesh& mesh) const {
-  graph::IndependentSet result;
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
+std::vector<CandidateIndex> Builder::poor_candidates(const hybrid::HybridMesh& mesh) const {
+  std::vector<CandidateIndex> result;
+  for (const auto c : indices<CellIndex>(mesh.cell_count())) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive || cell.candidate == no_index || rules_.is_guest(cell.candidate)) continue;
     const bool is_poor_hex = rules_.smooth_rounds > 0 && cell.kind == CellKind::hex &&
@@ -256,7 +257,7 @@ graph::IndependentSet Builder::poor_candidates(const hybrid::HybridMesh& mesh) c
 // Moving vertices leaves valid cells valid. A cell that is not valid now was not valid in the input, and nothing has
 // mended it.
 void Builder::check_cells_left(const hybrid::HybridMesh& mesh) const {
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
+  for (const auto c : indices<CellIndex>(mesh.cell_count())) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive || cell.candidate == no_index) continue;
     const std::span corners = std::span(cell.corners).first(corner_count(cell.kind));
@@ -273,7 +274,7 @@ Built Builder::finish(Attempt attempt, const GivenBackCounts& given_back) const 
   conform::ConformityCounts& counts = attempt.conformity;
   for (std::size_t i = 0; i < conform::all_reasons.size(); ++i) counts.given_back[i] += given_back.cells[i];
   counts.volume_given_back += given_back.hex_volume;
-  graph::IndependentSet left;
+  std::vector<CandidateIndex> left;
   append_candidates(attempt.mesh, true, left);
   return {.tags = std::move(attempt.tags),
           .extracted = std::move(attempt.extracted),
@@ -284,8 +285,8 @@ Built Builder::finish(Attempt attempt, const GivenBackCounts& given_back) const 
 }
 
 // Starts from the input again, without the given cells.
-Attempt Builder::without(graph::IndependentSet& kept, const graph::IndependentSet& given_back) const {
-  graph::IndependentSet rest;
+Attempt Builder::without(std::vector<CandidateIndex>& kept, const std::vector<CandidateIndex>& given_back) const {
+  std::vector<CandidateIndex> rest;
   std::ranges::set_difference(kept, given_back, std::back_inserter(rest));
   kept = std::move(rest);
   hybrid::SurfaceTags tags(input_.mesh);
@@ -294,12 +295,13 @@ Attempt Builder::without(graph::IndependentSet& kept, const graph::IndependentSe
 }
 
 Built Builder::run(AttemptStart start) const {
-  graph::IndependentSet kept = start.selection.chosen();
+  std::vector<CandidateIndex> kept = start.selection.chosen();
   std::optional<Attempt> attempt(
       Attempt{.tags = std::move(start.tags), .mesh = std::move(start.selection).take_mesh()});
   int conforming_attempts = 1, smoothing_attempts = 1;
   while (true) {
-    graph::IndependentSet poor = conform(*attempt, conforming_attempts == most_attempts || rules_.smooth_rounds == 0);
+    std::vector<CandidateIndex> poor =
+        conform(*attempt, conforming_attempts == most_attempts || rules_.smooth_rounds == 0);
     if (!poor.empty()) {
       ++conforming_attempts;
     } else {
@@ -321,7 +323,7 @@ std::span<const std::uint8_t> BuildRules::is_shared() const {
   return seam == nullptr ? std::span<const std::uint8_t>() : seam->is_shared;
 }
 
-void GivenBackCounts::add(const Candidates& candidates, const graph::IndependentSet& given_back,
+void GivenBackCounts::add(const Candidates& candidates, const std::vector<CandidateIndex>& given_back,
                           conform::GivenBack reason) {
   cells[static_cast<std::size_t>(reason)] += static_cast<std::int64_t>(given_back.size());
   for (const CandidateIndex candidate : given_back)

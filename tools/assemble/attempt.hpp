@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
-#include "common/graph/conflict_graph.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/tet_mesh.hpp"
@@ -49,7 +49,7 @@ struct GivenBackCounts {
   std::array<std::int64_t, conform::all_reasons.size()> cells{};
   double hex_volume = 0;
 
-  void add(const Candidates& candidates, const graph::IndependentSet& given_back, conform::GivenBack reason);
+  void add(const Candidates& candidates, const std::vector<CandidateIndex>& given_back, conform::GivenBack reason);
 };
 
 // One attempt: the mesh and what it took to make it.
@@ -70,7 +70,7 @@ struct Built {
   conform::ConformityCounts conformity;  // with the cells given back between attempts
   ImprovementCounts improvement;
   KindTable before_smoothing;
-  graph::IndependentSet left;  // the candidates that are cells of the mesh, ascending
+  std::vector<CandidateIndex> left;  // the candidates that are cells of the mesh, ascending
 };
 
 // Where the first attempt begins.

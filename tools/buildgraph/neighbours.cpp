@@ -23,13 +23,13 @@ class HaloCollector {
     for (const auto& row : all_.candidates.vertices)
       for (const Vertex v : row)
         if (v != no_index) corners_[v] = true;
-    for (const std::int32_t tet : all_.candidates.tets) tets_[tet] = true;
-    std::iota(order_.begin(), order_.end(), 0);
+    for (const TetIndex tet : all_.candidates.tets) tets_[tet] = true;
+    std::iota(order_.begin(), order_.end(), CandidateIndex(0));
   }
 
   void add_from(const pipeline::PartBundle& other) {
-    const std::vector<std::int32_t> points = places_in(part_.point_number, other.part.point_number);
-    const std::vector<std::int32_t> tets = places_in(part_.tet_number, other.part.tet_number);
+    const std::vector<Vertex> points = places_in(part_.point_number, other.part.point_number);
+    const auto tets = places_in<TetIndex>(part_.tet_number, other.part.tet_number);
     for (std::size_t i = 0; i < other.candidates.size(); ++i) {
       const bool is_own = other.keys.part[i] == other.part.part;
       if (is_own && may_conflict(other.candidates, i, points, tets)) add(other, i, points, tets);
@@ -39,33 +39,33 @@ class HaloCollector {
   // All candidates, in the order of their keys.
   PartCandidates take() {
     std::sort(order_.begin(), order_.end(),
-              [&](std::int32_t a, std::int32_t b) { return all_.keys.key[a] < all_.keys.key[b]; });
+              [&](CandidateIndex a, CandidateIndex b) { return all_.keys.key[a] < all_.keys.key[b]; });
     return {select(all_.candidates, order_), select(all_.keys, order_)};
   }
 
  private:
-  bool may_conflict(const Candidates& others, std::size_t i, const std::vector<std::int32_t>& points,
-                    const std::vector<std::int32_t>& tets) const {
+  bool may_conflict(const Candidates& others, std::size_t i, const std::vector<Vertex>& points,
+                    const std::vector<TetIndex>& tets) const {
     const auto corners = others.corners_of(i);
     const auto shared = std::count_if(corners.begin(), corners.end(),
                                       [&](Vertex v) { return points[v] != no_index && corners_[points[v]]; });
     if (shared >= 2) return true;
     const auto interior = others.interior_tets_of(i);
     return std::any_of(interior.begin(), interior.end(),
-                       [&](std::int32_t tet) { return tets[tet] != no_index && tets_[tets[tet]]; });
+                       [&](TetIndex tet) { return tets[tet] != no_index && tets_[tets[tet]]; });
   }
 
-  void add(const pipeline::PartBundle& other, std::size_t i, const std::vector<std::int32_t>& points,
-           const std::vector<std::int32_t>& tets) {
-    const auto place = [&](const std::vector<std::int32_t>& places, std::int32_t item) {
+  void add(const pipeline::PartBundle& other, std::size_t i, const std::vector<Vertex>& points,
+           const std::vector<TetIndex>& tets) {
+    const auto place = [&]<class Item>(const std::vector<Item>& places, Item item) {
       if (places[item] != no_index) return places[item];
       throw DataError::at(other.name, "expected candidates at {} to lie within its ghosts, found one beyond them",
                           title_of(part_));
     };
-    const auto tet = [&](std::int32_t t) { return place(tets, t); };
+    const auto tet = [&](TetIndex t) { return place(tets, t); };
     append_candidate(
         all_.candidates, other.candidates, i, [&](Vertex v) { return place(points, v); }, tet, tet);
-    order_.push_back(static_cast<std::int32_t>(all_.keys.key.size()));
+    order_.push_back(CandidateIndex(all_.keys.key.size()));
     all_.keys.key.push_back(other.keys.key[i]);
     all_.keys.part.push_back(other.part.part);
   }
@@ -73,7 +73,7 @@ class HaloCollector {
   PartCandidates all_;
   const MeshPart& part_;
   std::vector<bool> corners_, tets_;  // of the part's own candidates
-  std::vector<std::int32_t> order_;
+  std::vector<CandidateIndex> order_;
 };
 
 }  // namespace

@@ -13,8 +13,7 @@ void keep_items(std::vector<T>& items, std::span<const std::int32_t> kept) {
   items.resize(kept.size());
 }
 
-void keep_lists(std::vector<std::int64_t>& offsets, std::vector<std::int32_t>& items,
-                std::span<const std::int32_t> kept) {
+void keep_lists(std::vector<std::int64_t>& offsets, std::vector<TetIndex>& items, std::span<const std::int32_t> kept) {
   std::int64_t end = 0;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const std::int64_t from = offsets[kept[i]], to = offsets[kept[i] + 1];

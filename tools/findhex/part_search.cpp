@@ -12,12 +12,12 @@ candidates::SearchScope scope_of(const Submesh& part_searched, const MeshPart& p
   candidates::SearchScope scope;
   for (const std::int32_t point : part_searched.points) scope.begins_at.push_back(part.point_part[point] == part.part);
   if (!part.tet_turned.empty())
-    for (const std::int32_t tet : part_searched.tets) scope.turns.push_back(part.tet_turned[tet]);
+    for (const TetIndex tet : part_searched.tets) scope.turns.push_back(part.tet_turned[tet]);
   return scope;
 }
 
-void renumber(std::vector<std::int32_t>& items, const std::vector<std::int32_t>& numbers) {
-  for (std::int32_t& item : items) item = numbers[item];
+void renumber(std::vector<TetIndex>& tets, const std::vector<TetIndex>& numbers) {
+  for (TetIndex& tet : tets) tet = numbers[tet];
 }
 
 }  // namespace

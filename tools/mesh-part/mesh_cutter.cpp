@@ -22,23 +22,23 @@ void sort_unique(std::vector<std::int32_t>& items) {
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
-template <class T>
-std::vector<T> select(const std::vector<T>& items, const std::vector<std::int32_t>& chosen) {
+template <class T, class I>
+std::vector<T> select(const std::vector<T>& items, const std::vector<I>& chosen) {
   std::vector<T> selected;
   selected.reserve(chosen.size());
-  for (const std::int32_t i : chosen) selected.push_back(items[i]);
+  for (const I i : chosen) selected.push_back(items[i]);
   return selected;
 }
 
 }  // namespace
 
-MeshCutter::Lists MeshCutter::lists_by_part(const std::vector<std::int32_t>& parts_of_items, std::int32_t parts) {
-  Lists lists{std::vector<std::int64_t>(parts + 1, 0), std::vector<std::int32_t>(parts_of_items.size())};
+template <class Item>
+auto MeshCutter::lists_by_part(const std::vector<std::int32_t>& parts_of_items, std::int32_t parts) -> Lists<Item> {
+  Lists<Item> lists{std::vector<std::int64_t>(parts + 1, 0), std::vector<Item>(parts_of_items.size())};
   for (const std::int32_t part : parts_of_items) ++lists.offsets[part + 1];
   std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
   std::vector<std::int64_t> next(lists.offsets.begin(), lists.offsets.end() - 1);
-  for (std::size_t i = 0; i < parts_of_items.size(); ++i)
-    lists.items[next[parts_of_items[i]]++] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < parts_of_items.size(); ++i) lists.items[next[parts_of_items[i]]++] = static_cast<Item>(i);
   return lists;
 }
 
@@ -49,8 +49,8 @@ MeshCutter::MeshCutter(const TetMesh& mesh, const TetAdjacency& adjacency, const
       partition_(partition),
       parts_(parts),
       edges_(edges),
-      own_points_(lists_by_part(partition.point_part, parts)),
-      own_tets_(lists_by_part(partition.tet_part, parts)),
+      own_points_(lists_by_part<Vertex>(partition.point_part, parts)),
+      own_tets_(lists_by_part<TetIndex>(partition.tet_part, parts)),
       point_taken_(mesh.points.size(), 0),
       tet_taken_(mesh.tets.size(), no_index) {
   file_triangles();
@@ -60,7 +60,7 @@ void MeshCutter::file_triangles() {
   for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
     const auto triangle = static_cast<std::int32_t>(i);
     const std::size_t before = triangles_.size();
-    for (const std::int32_t tet : adjacency_.tets_at(mesh_.triangles[i][0]))
+    for (const TetIndex tet : adjacency_.tets_at(mesh_.triangles[i][0]))
       if (has_vertices(mesh_.tets[tet], mesh_.triangles[i])) triangles_.push_back({tet, triangle});
     if (triangles_.size() == before) lone_triangles_.push_back(triangle);
   }
@@ -81,23 +81,23 @@ std::vector<std::int32_t> MeshCutter::points_within(std::int32_t part, int edges
   return points;
 }
 
-std::vector<std::int32_t> MeshCutter::tets_of(std::int32_t part) {
-  std::vector<std::int32_t> tets;
-  const auto take = [&](std::int32_t tet) {
+std::vector<TetIndex> MeshCutter::tets_of(std::int32_t part) {
+  std::vector<TetIndex> tets;
+  const auto take = [&](TetIndex tet) {
     if (std::exchange(tet_taken_[tet], part) != part) tets.push_back(tet);
   };
-  for (const std::int32_t tet : own_tets_.of(part)) take(tet);
+  for (const TetIndex tet : own_tets_.of(part)) take(tet);
   for (const std::int32_t point : points_within(part, edges_))
-    for (const std::int32_t tet : adjacency_.tets_at(point)) take(tet);
+    for (const TetIndex tet : adjacency_.tets_at(point)) take(tet);
   std::sort(tets.begin(), tets.end());
   return tets;
 }
 
-std::vector<std::int32_t> MeshCutter::triangles_of(std::int32_t part, const std::vector<std::int32_t>& tets) const {
+std::vector<std::int32_t> MeshCutter::triangles_of(std::int32_t part, const std::vector<TetIndex>& tets) const {
   std::vector<std::int32_t> triangles;
   if (part == 0) triangles = lone_triangles_;
   auto at = triangles_.begin();
-  for (const std::int32_t tet : tets) {
+  for (const TetIndex tet : tets) {
     at = std::lower_bound(at, triangles_.end(), TriangleAtTet{tet, 0});
     for (; at != triangles_.end() && at->tet == tet; ++at) triangles.push_back(at->triangle);
   }
@@ -105,11 +105,11 @@ std::vector<std::int32_t> MeshCutter::triangles_of(std::int32_t part, const std:
   return triangles;
 }
 
-std::vector<std::int32_t> MeshCutter::points_of(std::int32_t part, const std::vector<std::int32_t>& tets,
+std::vector<std::int32_t> MeshCutter::points_of(std::int32_t part, const std::vector<TetIndex>& tets,
                                                 const std::vector<std::int32_t>& triangles) {
   const auto own = own_points_.of(part);
   std::vector<std::int32_t> points(own.begin(), own.end());
-  for (const std::int32_t tet : tets) points.insert(points.end(), mesh_.tets[tet].begin(), mesh_.tets[tet].end());
+  for (const TetIndex tet : tets) points.insert(points.end(), mesh_.tets[tet].begin(), mesh_.tets[tet].end());
   for (const std::int32_t triangle : triangles)
     points.insert(points.end(), mesh_.triangles[triangle].begin(), mesh_.triangles[triangle].end());
   sort_unique(points);
@@ -117,7 +117,8 @@ std::vector<std::int32_t> MeshCutter::points_of(std::int32_t part, const std::ve
 }
 
 PartOfMesh MeshCutter::cut(std::int32_t part, const MeshFingerprint& whole, const std::vector<std::int8_t>& turns) {
-  std::vector<std::int32_t> tets = tets_of(part), triangles = triangles_of(part, tets);
+  std::vector<TetIndex> tets = tets_of(part);
+  std::vector<std::int32_t> triangles = triangles_of(part, tets);
   std::vector<std::int32_t> points = points_of(part, tets, triangles);
   Submesh cut = submesh(mesh_, std::move(points), std::move(tets), std::move(triangles), scratch_);
 

@@ -41,33 +41,37 @@ class MeshCutter {
   void file_triangles();
   // Points at most `edges` edges away from one of the part's own.
   std::vector<std::int32_t> points_within(std::int32_t part, int edges);
-  std::vector<std::int32_t> tets_of(std::int32_t part);
-  std::vector<std::int32_t> triangles_of(std::int32_t part, const std::vector<std::int32_t>& tets) const;
-  std::vector<std::int32_t> points_of(std::int32_t part, const std::vector<std::int32_t>& tets,
+  std::vector<TetIndex> tets_of(std::int32_t part);
+  std::vector<std::int32_t> triangles_of(std::int32_t part, const std::vector<TetIndex>& tets) const;
+  std::vector<std::int32_t> points_of(std::int32_t part, const std::vector<TetIndex>& tets,
                                       const std::vector<std::int32_t>& triangles);
 
   struct TriangleAtTet {
-    std::int32_t tet, triangle;
+    TetIndex tet;
+    std::int32_t triangle;
     bool operator<(const TriangleAtTet& other) const {
       return tet != other.tet ? tet < other.tet : triangle < other.triangle;
     }
   };
   // Items by part.
+  template <class Item>
   struct Lists {
     std::vector<std::int64_t> offsets;
-    std::vector<std::int32_t> items;
-    std::span<const std::int32_t> of(std::int32_t part) const {
+    std::vector<Item> items;
+    std::span<const Item> of(std::int32_t part) const {
       return std::span(items).subspan(offsets[part], offsets[part + 1] - offsets[part]);
     }
   };
-  static Lists lists_by_part(const std::vector<std::int32_t>& parts_of_items, std::int32_t parts);
+  template <class Item>
+  static Lists<Item> lists_by_part(const std::vector<std::int32_t>& parts_of_items, std::int32_t parts);
 
   const TetMesh& mesh_;
   const TetAdjacency& adjacency_;
   const Partition& partition_;
   std::int32_t parts_;
   int edges_;
-  Lists own_points_, own_tets_;
+  Lists<Vertex> own_points_;
+  Lists<TetIndex> own_tets_;
   std::vector<TriangleAtTet> triangles_;      // sorted
   std::vector<std::int32_t> lone_triangles_;  // beside no tet; part 0 gets them
   // The number of the search that took a point last, and the part that took a tet last.

@@ -27,7 +27,7 @@ DualGraph dual_graph(const TetAdjacency& adjacency, std::int64_t tet_count) {
   graph.offsets.reserve(tet_count + 1);
   graph.neighbours.reserve(4 * tet_count);
   for (std::int64_t t = 0; t < tet_count; ++t) {
-    for (const std::int32_t beyond : adjacency.tets_beyond(static_cast<std::int32_t>(t)))
+    for (const TetIndex beyond : adjacency.tets_beyond(TetIndex(t)))
       if (beyond != no_index) graph.neighbours.push_back(beyond);
     graph.offsets.push_back(static_cast<idx_t>(graph.neighbours.size()));
   }
@@ -83,7 +83,7 @@ std::vector<std::int32_t> owners_of_points(std::size_t point_count, const TetAdj
   std::vector<std::int32_t> owners(point_count), around;
   for (std::size_t v = 0; v < point_count; ++v) {
     around.clear();
-    for (const std::int32_t t : adjacency.tets_at(static_cast<Vertex>(v))) around.push_back(tet_part[t]);
+    for (const TetIndex t : adjacency.tets_at(static_cast<Vertex>(v))) around.push_back(tet_part[t]);
     owners[v] = most_frequent(around);
   }
   return owners;

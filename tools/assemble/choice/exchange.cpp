@@ -60,7 +60,7 @@ void for_inner_quads(const hybrid::BoundaryQuads& boundary, const Candidates& ca
 }
 
 KeySet<4> open_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
-                     const graph::IndependentSet& chosen) {
+                     const std::vector<CandidateIndex>& chosen) {
   KeySet<4> open;
   for (const CandidateIndex i : chosen)
     for_inner_quads(boundary, candidates, i, [&](const VertexKey<4>& key) {
@@ -76,23 +76,26 @@ bool can_come_in(const TetMesh& mesh, const Candidates& candidates, CandidateInd
   return is_valid(CellKind::hex, corners);
 }
 
-double least_quality_of(const Candidates& candidates, const graph::IndependentSet& chosen) {
+double least_quality_of(const Candidates& candidates, const std::vector<CandidateIndex>& chosen) {
   double least = least_hex_quality;
   for (const CandidateIndex i : chosen)
     if (candidates.kind[i] == CellKind::hex) least = std::min(least, candidates.quality[i]);
   return least;
 }
 
-// The candidates that take part, ascending: hexes at open quads, and all chosen cells that have a vertex of one of
-// these. Cells in conflict share a vertex, and so do cells at one quad.
-std::vector<CandidateIndex> find_participants(const TetMesh& mesh, const Candidates& candidates,
-                                              const graph::IndependentSet& chosen, const KeySet<4>& open) {
+// The candidates that take part.
+using Participants = IndexedVector<Participant, CandidateIndex>;
+
+// All that take part, ascending: hexes at open quads, and all chosen cells that have a vertex of one of these. Cells in
+// conflict share a vertex, and so do cells at one quad.
+Participants find_participants(const TetMesh& mesh, const Candidates& candidates,
+                               const std::vector<CandidateIndex>& chosen, const KeySet<4>& open) {
   std::vector<bool> is_at_open(mesh.points.size()), is_at_participant(mesh.points.size());
   for (const auto& quad : open)
     for (const Vertex v : quad) is_at_open[v] = true;
   const double least_quality = least_quality_of(candidates, chosen);
-  std::vector<CandidateIndex> participants;
-  for (CandidateIndex i = 0; i < static_cast<CandidateIndex>(candidates.size()); ++i) {
+  Participants participants;
+  for (const auto i : indices<CandidateIndex>(candidates.size())) {
     const auto corners = candidates.corners_of(i);
     if (candidates.kind[i] != CellKind::hex || std::ranges::binary_search(chosen, i)) continue;
     if (std::ranges::count_if(corners, [&](Vertex v) { return is_at_open[v]; }) < least_at_open_quads) continue;
@@ -172,7 +175,7 @@ class Worth {
 
 // Numbers the inner quads of the participants, and counts the other chosen cells at them.
 void number_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
-                  const graph::IndependentSet& chosen, std::span<const CandidateIndex> participants, const Worth& worth,
+                  const std::vector<CandidateIndex>& chosen, const Participants& participants, const Worth& worth,
                   ExchangeProblem& problem) {
   KeyMap<4, QuadIndex> numbers;
   for (const CandidateIndex i : participants) {
@@ -180,13 +183,13 @@ void number_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candi
     row.fill(no_index);
     std::size_t filled = 0;
     for_inner_quads(boundary, candidates, i, [&](const VertexKey<4>& key) {
-      const auto [entry, added] = numbers.try_emplace(key, static_cast<QuadIndex>(numbers.size()));
+      const auto [entry, added] = numbers.try_emplace(key, QuadIndex(numbers.size()));
       if (added) problem.cost.push_back(worth.cost_of(key));
       row[filled++] = entry->second;
     });
   }
   problem.fixed_cells.assign(numbers.size(), 0);
-  graph::IndependentSet others;
+  std::vector<CandidateIndex> others;
   std::ranges::set_difference(chosen, participants, std::back_inserter(others));
   for (const CandidateIndex i : others)
     for_inner_quads(boundary, candidates, i, [&](const VertexKey<4>& key) {
@@ -195,7 +198,7 @@ void number_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candi
 }
 
 ExchangeProblem problem_of(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
-                           const graph::IndependentSet& chosen, std::span<const CandidateIndex> participants) {
+                           const std::vector<CandidateIndex>& chosen, const Participants& participants) {
   ExchangeProblem problem;
   Candidates cells = select(candidates, participants);
   const Worth worth(cells, mesh.points);
@@ -214,46 +217,47 @@ ExchangeProblem problem_of(const TetMesh& mesh, const hybrid::BoundaryQuads& bou
 
 bool is_independent(const graph::ConflictGraph& graph, const graph::IndependentSet& set) {
   std::vector<bool> is_in(graph.weights.size());
-  for (const Participant i : set) is_in[i] = true;
-  return std::ranges::none_of(set, [&](Participant i) {
-    return std::ranges::any_of(graph.neighbours_of(i), [&](Participant u) { return is_in[u]; });
+  for (const std::int32_t i : set) is_in[i] = true;
+  return std::ranges::none_of(set, [&](std::int32_t i) {
+    return std::ranges::any_of(graph.neighbours_of(i), [&](std::int32_t u) { return is_in[u]; });
   });
 }
 
 // Hexes that could be added to the choice: they were left out on purpose, and their room with them. A maximal choice
 // has none.
 std::vector<Participant> left_out(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
-                                  const std::vector<std::uint8_t>& is_hex) {
+                                  const IndexedVector<Participant, std::uint8_t>& is_hex) {
   std::vector<bool> is_kept_out(graph.weights.size());
-  for (const Participant i : start) {
+  for (const std::int32_t i : start) {
     is_kept_out[i] = true;
-    for (const Participant u : graph.neighbours_of(i)) is_kept_out[u] = true;
+    for (const std::int32_t u : graph.neighbours_of(i)) is_kept_out[u] = true;
   }
   std::vector<Participant> result;
-  for (Participant i = 0; i < graph.vertex_count(); ++i)
+  for (const auto i : indices<Participant>(is_hex.size()))
     if (is_hex[i] && !is_kept_out[i]) result.push_back(i);
   return result;
 }
 
-// By participant: 1 if it stays in or out. Chosen cells other than hexes stay, hexes that were left out, and all that
+// 1 for a participant that stays in or out. Chosen cells other than hexes stay, hexes that were left out, and all that
 // are in conflict with one of these.
-std::vector<std::uint8_t> find_staying(const graph::ConflictGraph& graph, const graph::IndependentSet& start,
-                                       const std::vector<std::uint8_t>& is_hex) {
-  std::vector<std::uint8_t> stays(graph.weights.size());
+IndexedVector<Participant, std::uint8_t> find_staying(const graph::ConflictGraph& graph,
+                                                      const graph::IndependentSet& start,
+                                                      const IndexedVector<Participant, std::uint8_t>& is_hex) {
+  IndexedVector<Participant, std::uint8_t> stays(graph.weights.size());
   const auto bar = [&](Participant i) {
     stays[i] = 1;
-    for (const Participant u : graph.neighbours_of(i)) stays[u] = 1;
+    for (const auto u : as_indices<Participant>(graph.neighbours_of(i))) stays[u] = 1;
   };
-  for (const Participant i : start)
+  for (const auto i : as_indices<Participant>(start))
     if (!is_hex[i]) bar(i);
   for (const Participant i : left_out(graph, start, is_hex)) bar(i);
   return stays;
 }
 
 // `chosen` with `after` in place of `before`, all ascending.
-Exchange replaced(const graph::IndependentSet& chosen, const graph::IndependentSet& before,
-                  const graph::IndependentSet& after) {
-  graph::IndependentSet out, in, rest;
+Exchange replaced(const std::vector<CandidateIndex>& chosen, const std::vector<CandidateIndex>& before,
+                  const std::vector<CandidateIndex>& after) {
+  std::vector<CandidateIndex> out, in, rest;
   std::ranges::set_difference(before, after, std::back_inserter(out));
   std::ranges::set_difference(after, before, std::back_inserter(in));
   std::ranges::set_difference(chosen, out, std::back_inserter(rest));
@@ -268,14 +272,14 @@ Exchange replaced(const graph::IndependentSet& chosen, const graph::IndependentS
 
 Exchange exchange_hexes(const TetMesh& mesh, const hybrid::BoundaryQuads& boundary, const Candidates& candidates,
                         const CheckedChoice& choice) {
-  const graph::IndependentSet& chosen = choice.chosen();
+  const std::vector<CandidateIndex>& chosen = choice.chosen();
   const KeySet<4> open = open_quads(boundary, candidates, chosen);
   const auto open_before = static_cast<std::int64_t>(open.size());
-  const std::vector<CandidateIndex> participants = find_participants(mesh, candidates, chosen, open);
+  const Participants participants = find_participants(mesh, candidates, chosen, open);
   graph::IndependentSet start;
-  std::vector<std::uint8_t> is_hex;
+  IndexedVector<Participant, std::uint8_t> is_hex;
   for (const CandidateIndex i : participants) {
-    if (std::ranges::binary_search(chosen, i)) start.push_back(static_cast<Participant>(is_hex.size()));
+    if (std::ranges::binary_search(chosen, i)) start.push_back(static_cast<std::int32_t>(is_hex.size()));
     is_hex.push_back(candidates.kind[i] == CellKind::hex);
   }
   ExchangeProblem problem = problem_of(mesh, boundary, candidates, chosen, participants);
@@ -285,9 +289,10 @@ Exchange exchange_hexes(const TetMesh& mesh, const hybrid::BoundaryQuads& bounda
 
   ExchangeSearch search(problem, start, Random(seed));
   search.run(std::min(moves_a_candidate * static_cast<std::int64_t>(participants.size()), most_moves), cooling);
-  graph::IndependentSet before, after;
-  for (const Participant i : start) before.push_back(participants[i]);
-  for (const Participant i : search.best()) after.push_back(participants[i]);
+  const graph::IndependentSet best = search.best();
+  std::vector<CandidateIndex> before, after;
+  for (const auto i : as_indices<Participant>(start)) before.push_back(participants[i]);
+  for (const auto i : as_indices<Participant>(best)) after.push_back(participants[i]);
   Exchange result = replaced(chosen, before, after);
   result.counts.open_quads_before = open_before;
   result.counts.open_quads_after = static_cast<std::int64_t>(open_quads(boundary, candidates, result.chosen).size());

@@ -2,8 +2,8 @@
 // Exchanges chosen hexes for other candidates, so that hexes gain or fewer quads are open.
 
 #include <cstdint>
+#include <vector>
 
-#include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/assemble/choice/selection.hpp"
@@ -18,7 +18,7 @@ struct ExchangeCounts {
 };
 
 struct Exchange {
-  graph::IndependentSet chosen;
+  std::vector<CandidateIndex> chosen;
   ExchangeCounts counts;
 };
 

@@ -18,10 +18,10 @@ constexpr std::int64_t moves_a_temperature = 256;
 
 ExchangeSearch::ExchangeSearch(const ExchangeProblem& problem, const graph::IndependentSet& start, Random random)
     : problem_(problem), state_(problem.graph), random_(random), cells_at_(problem.fixed_cells) {
-  for (std::size_t quad = 0; quad < cells_at_.size(); ++quad)
+  for (const auto quad : indices<QuadIndex>(cells_at_.size()))
     if (cells_at_[quad] == 1) open_cost_ += problem.cost[quad];
-  for (const Participant participant : start) enter(participant);
-  for (Participant i = 0; i < problem.graph.vertex_count(); ++i)
+  for (const auto participant : as_indices<Participant>(start)) enter(participant);
+  for (const auto i : indices<Participant>(problem.stays.size()))
     if (!problem.stays[i]) movable_.push_back(i);
   best_value_ = value();
 }
@@ -54,7 +54,7 @@ void ExchangeSearch::move(Participant participant, double least_change) {
 
 void ExchangeSearch::push(Participant participant) {
   pushed_out_.clear();
-  state_.for_each_chosen_neighbour(participant, [&](Participant u) { pushed_out_.push_back(u); });
+  state_.for_each_chosen_neighbour(participant, [&](std::int32_t u) { pushed_out_.emplace_back(u); });
   for (const Participant u : pushed_out_) remove(u);
   add(participant);
 }
@@ -93,8 +93,8 @@ void ExchangeSearch::add(Participant participant) {
 }
 
 void ExchangeSearch::remove(Participant participant) {
-  state_.remove(participant, [&](Participant u) {
-    if (state_.tightness(u) == 0 && !problem_.stays[u]) freed_.push_back(u);
+  state_.remove(participant, [&](std::int32_t u) {
+    if (state_.tightness(u) == 0 && !problem_.stays[Participant(u)]) freed_.emplace_back(u);
   });
   for (const QuadIndex quad : problem_.quads[participant])
     if (quad != no_index) open_cost_ += --cells_at_[quad] == 1 ? problem_.cost[quad] : -problem_.cost[quad];
@@ -136,10 +136,10 @@ void ExchangeSearch::forget_what_came_back() {
 }
 
 graph::IndependentSet ExchangeSearch::best() const {
-  std::vector<std::uint8_t> toggled(problem_.stays.size(), 0);
+  IndexedVector<Participant, std::uint8_t> toggled(problem_.stays.size(), 0);
   for (const Participant participant : since_best_) toggled[participant] ^= 1;
   graph::IndependentSet set;
-  for (Participant i = 0; i < problem_.graph.vertex_count(); ++i)
+  for (const auto i : indices<Participant>(toggled.size()))
     if (state_.contains(i) != (toggled[i] != 0)) set.push_back(i);
   return set;
 }

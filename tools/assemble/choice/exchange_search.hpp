@@ -17,19 +17,19 @@
 namespace hexpipe::assemble::choice {
 
 // A candidate that takes part, by its place in the graph of the problem.
-using Participant = std::int32_t;
+using Participant = Index<struct ParticipantKind>;
 // A quad of participants, by its number in the problem.
-using QuadIndex = std::int32_t;
+using QuadIndex = Index<struct QuadOfParticipants>;
 
 // The participants to choose from. A quad is open if exactly one chosen cell has it.
 struct ExchangeProblem {
   graph::ConflictGraph graph;  // its weights are the worths of the participants
-  // By participant; no_index: the quad is on the boundary, or the participant has no such quad.
-  std::vector<std::array<QuadIndex, 6>> quads;
-  std::vector<std::int64_t> cost;         // by quad: its cost while it is open, in units of weight
-  std::vector<std::uint8_t> fixed_cells;  // by quad: the number of cells that have it and are not in the graph
-  std::vector<double> usual;              // by participant: the usual weight of those around it
-  std::vector<std::uint8_t> stays;        // by participant: 1 if it stays in or out, as it is at the start
+  // no_index: the quad is on the boundary, or the participant has no such quad.
+  IndexedVector<Participant, std::array<QuadIndex, 6>> quads;
+  IndexedVector<QuadIndex, std::int64_t> cost;         // while the quad is open, in units of weight
+  IndexedVector<QuadIndex, std::uint8_t> fixed_cells;  // the number of cells that have it and are not in the graph
+  IndexedVector<Participant, double> usual;            // the usual weight of those around it
+  IndexedVector<Participant, std::uint8_t> stays;      // 1 if it stays in or out, as it is at the start
 };
 
 class ExchangeSearch {
@@ -63,8 +63,8 @@ class ExchangeSearch {
   const ExchangeProblem& problem_;
   mwis::ground::SolutionState state_;
   Random random_;
-  std::vector<Participant> movable_;    // participants that need not stay
-  std::vector<std::uint8_t> cells_at_;  // by quad
+  std::vector<Participant> movable_;  // participants that need not stay
+  IndexedVector<QuadIndex, std::uint8_t> cells_at_;
   std::int64_t open_cost_ = 0;
   std::int64_t best_value_ = 0;
   std::vector<Participant> step_;        // participants that went in or out during this move

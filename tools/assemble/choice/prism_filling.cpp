@@ -35,7 +35,7 @@ LeftTets left_tets(const TetMesh& mesh, const hybrid::HybridMesh& selected) {
   left.mesh.points = mesh.points;
   left.mesh.triangles = mesh.triangles;
   left.mesh.triangle_tags = mesh.triangle_tags;
-  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tets.size()); ++t) {
+  for (const auto t : indices<TetIndex>(mesh.tets.size())) {
     if (!selected.is_alive(t)) continue;
     left.mesh.tets.push_back(mesh.tets[t]);
     left.mesh.tet_tags.push_back(mesh.tet_tags[t]);
@@ -73,12 +73,12 @@ class Filling {
  public:
   // `all` holds the chosen cells and, from `first` on, the prisms; `graph` their conflicts.
   Filling(const hybrid::BoundaryQuads& boundary, const Candidates& all, const graph::ConflictGraph& graph,
-          CandidateIndex first)
+          std::size_t first)
       : boundary_(boundary), all_(all), graph_(graph), barred_(all.size()) {
-    for (CandidateIndex i = 0; i < first; ++i) take(i);
-    for (CandidateIndex i = first; i < static_cast<CandidateIndex>(all.size()); ++i)
+    for (const auto i : indices<CandidateIndex>(first)) take(i);
+    for (const auto i : indices<CandidateIndex>(first, all.size()))
       for (const Quad& quad : quads_of_prism(all, i)) prisms_at_[key_of(quad)].push_back(i);
-    for (CandidateIndex i = first; i < static_cast<CandidateIndex>(all.size()); ++i) offer(i);
+    for (const auto i : indices<CandidateIndex>(first, all.size())) offer(i);
   }
 
   // The prisms taken, ascending.
@@ -116,7 +116,7 @@ class Filling {
     cell.corners = all_.vertices[i];
     for (int k = 0; k < cell.quad_count(); ++k) quads_.insert(key_of(cell.quad(k)));
     barred_[i] = true;
-    for (const CandidateIndex other : graph_.neighbours_of(i)) barred_[other] = true;
+    for (const std::int32_t other : graph_.neighbours_of(i)) barred_[other] = true;
   }
 
   int gain_of(CandidateIndex prism) const {
@@ -155,7 +155,7 @@ PrismFilling fill_with_prisms(const TetMesh& mesh, const hybrid::BoundaryQuads& 
   append(all, prisms);
   const graph::ConflictGraph graph =
       conflicts::conflict_graph(all, {.weight = conflicts::WeightKind::count, .weight_scale = 1}, source);
-  const auto taken = Filling(boundary, all, graph, static_cast<CandidateIndex>(result.cells.size())).run();
+  const auto taken = Filling(boundary, all, graph, result.cells.size()).run();
   append(result.cells, select(all, taken));
   result.prisms = static_cast<std::int64_t>(taken.size());
   return result;

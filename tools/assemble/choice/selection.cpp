@@ -12,11 +12,14 @@
 namespace hexpipe::assemble::choice {
 namespace {
 
-// By tet: which cell replaces it, and whether cells absorb it as a sliver.
+// Which candidate's cell replaces a tet, if any, and whether cells absorb it as a sliver.
 struct Claims {
-  std::vector<CandidateIndex> owner;  // or no_index
-  std::vector<std::uint8_t> absorbed;
+  IndexedVector<TetIndex, CandidateIndex> owner;
+  IndexedVector<TetIndex, std::uint8_t> absorbed;
 };
+
+// The chosen cells, with the numbers that they will have in the mesh.
+using ChosenCells = IndexedVector<CellIndex, hybrid::HybridCell>;
 
 [[noreturn]] void fail_conflict(const InputNames& names, CandidateIndex a, CandidateIndex b, const char* how) {
   throw DataError::at(names.solution, "expected candidates that fit together, found {} and {} which {}",
@@ -104,8 +107,8 @@ struct QuadOwner {
   CellIndex partner = no_index;
 };
 
-void pair_quads(const InputNames& names, const std::vector<hybrid::HybridCell>& cells, KeyMap<4, QuadOwner>& owners) {
-  for (CellIndex c = 0; c < static_cast<CellIndex>(cells.size()); ++c)
+void pair_quads(const InputNames& names, const ChosenCells& cells, KeyMap<4, QuadOwner>& owners) {
+  for (const auto c : indices<CellIndex>(cells.size()))
     for (int i = 0; i < cells[c].quad_count(); ++i) {
       const Quad quad = cells[c].quad(i);
       auto [entry, added] = owners.try_emplace(key_of(quad), QuadOwner{c, quad});
@@ -118,7 +121,7 @@ void pair_quads(const InputNames& names, const std::vector<hybrid::HybridCell>& 
 }
 
 void absorb_slivers(const InputNames& names, const hybrid::SurfaceTags& tags, const KeyMap<4, QuadOwner>& owners,
-                    std::vector<hybrid::HybridCell>& cells, Claims& claims) {
+                    ChosenCells& cells, Claims& claims) {
   for (auto& cell : cells)
     for (int i = 0; i < cell.quad_count(); ++i) {
       TetIndex& sliver = cell.sliver[i];
@@ -164,7 +167,7 @@ bool faces_tets(const InputNames& names, const hybrid::HybridMesh& mesh, const h
 KeyMap<2, CandidateIndex> check_quads(const InputNames& names, const hybrid::HybridMesh& mesh,
                                       const hybrid::SurfaceTags& tags) {
   KeyMap<2, CandidateIndex> diagonals;
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
+  for (const auto c : indices<CellIndex>(mesh.cell_count()))
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
       const hybrid::HybridCell& cell = mesh.cell(c);
       const Quad quad = cell.quad(i);
@@ -182,7 +185,7 @@ KeyMap<2, CandidateIndex> check_quads(const InputNames& names, const hybrid::Hyb
 
 // No cell has an edge that is the diagonal of an open quad.
 void check_edges(const InputNames& names, const hybrid::HybridMesh& mesh, const KeyMap<2, CandidateIndex>& diagonals) {
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
+  for (const auto c : indices<CellIndex>(mesh.cell_count()))
     with_topology(mesh.cell(c).kind, [&](auto topology) {
       const auto& corners = mesh.cell(c).corners;
       for (const auto& e : decltype(topology)::edges) {
@@ -200,9 +203,9 @@ std::string title_of(const InputNames& names, CandidateIndex candidate) {
   return bundle == 0 ? fmt::format("{}", number + 1) : fmt::format("{} of {}", number + 1, names.bundles[bundle]);
 }
 
-graph::IndependentSet all_of(const Candidates& candidates) {
-  graph::IndependentSet all(candidates.size());
-  std::iota(all.begin(), all.end(), 0);
+std::vector<CandidateIndex> all_of(const Candidates& candidates) {
+  std::vector<CandidateIndex> all(candidates.size());
+  std::iota(all.begin(), all.end(), CandidateIndex(0));
   return all;
 }
 
@@ -213,10 +216,11 @@ bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, Ca
 namespace {
 
 hybrid::HybridMesh select_cells(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
-                                const graph::IndependentSet& chosen, const InputNames& names) {
-  Claims claims{std::vector<CandidateIndex>(mesh.tets.size(), no_index),
-                std::vector<std::uint8_t>(mesh.tets.size(), 0)};
-  std::vector<hybrid::HybridCell> cells;
+                                const std::vector<CandidateIndex>& chosen, const InputNames& names) {
+  Claims claims;
+  claims.owner.resize(mesh.tets.size());
+  claims.absorbed.resize(mesh.tets.size());
+  ChosenCells cells;
   cells.reserve(chosen.size());
   for (CandidateIndex candidate : chosen) {
     claim_interior(names, candidates, candidate, claims);
@@ -233,7 +237,7 @@ hybrid::HybridMesh select_cells(const TetMesh& mesh, const hybrid::SurfaceTags& 
   absorb_slivers(names, tags, owners, cells, claims);
 
   std::vector<bool> removed(mesh.tets.size());
-  for (std::size_t t = 0; t < removed.size(); ++t) removed[t] = claims.owner[t] != no_index || claims.absorbed[t];
+  for (const auto t : indices<TetIndex>(removed.size())) removed[t] = claims.owner[t] != no_index || claims.absorbed[t];
   hybrid::HybridMesh result(mesh, removed);
   for (const auto& cell : cells) result.add_cell(cell);
   check_edges(names, result, check_quads(names, result, tags));
@@ -243,7 +247,7 @@ hybrid::HybridMesh select_cells(const TetMesh& mesh, const hybrid::SurfaceTags& 
 }  // namespace
 
 Selection::Selection(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
-                     graph::IndependentSet chosen, const InputNames& names)
+                     std::vector<CandidateIndex> chosen, const InputNames& names)
     : choice_(std::move(chosen)), mesh_(select_cells(mesh, tags, candidates, choice_.chosen(), names)) {}
 
 bool is_open(const hybrid::HybridMesh& mesh, CellIndex cell, int i) {
@@ -254,7 +258,7 @@ bool is_open(const hybrid::HybridMesh& mesh, CellIndex cell, int i) {
 
 std::vector<OpenQuad> open_quads(const hybrid::HybridMesh& mesh) {
   std::vector<OpenQuad> result;
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
+  for (const auto c : indices<CellIndex>(mesh.cell_count())) {
     if (!mesh.cell(c).alive) continue;
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i)
       if (is_open(mesh, c, i)) result.push_back({c, i});

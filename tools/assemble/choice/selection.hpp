@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/graph/conflict_graph.hpp"
 #include "common/mesh/candidates.hpp"
 #include "common/mesh/tet_mesh.hpp"
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
@@ -32,7 +31,7 @@ struct InputNames {
 std::string title_of(const InputNames& names, CandidateIndex candidate);
 
 // All of them, ascending.
-graph::IndependentSet all_of(const Candidates& candidates);
+std::vector<CandidateIndex> all_of(const Candidates& candidates);
 
 // Whether the candidate's tets form it. False for a candidate of another mesh.
 bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, CandidateIndex candidate);
@@ -40,13 +39,13 @@ bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, Ca
 // Chosen candidates that are known to fit together: only a Selection makes one.
 class CheckedChoice {
  public:
-  const graph::IndependentSet& chosen() const { return chosen_; }
+  const std::vector<CandidateIndex>& chosen() const { return chosen_; }
 
  private:
   friend class Selection;
-  explicit CheckedChoice(graph::IndependentSet chosen) : chosen_(std::move(chosen)) {}
+  explicit CheckedChoice(std::vector<CandidateIndex> chosen) : chosen_(std::move(chosen)) {}
 
-  graph::IndependentSet chosen_;
+  std::vector<CandidateIndex> chosen_;
 };
 
 // The mesh with chosen cells in place of their interior tets and of the boundary tets on their quads. A boundary tet
@@ -57,10 +56,10 @@ class Selection {
   // not fit together: they share an interior tet, their facets cross, a diagonal of one is an edge of the other, or
   // they lie in two regions without an interface between them.
   Selection(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const Candidates& candidates,
-            graph::IndependentSet chosen, const InputNames& names = {});
+            std::vector<CandidateIndex> chosen, const InputNames& names = {});
 
   const CheckedChoice& choice() const { return choice_; }
-  const graph::IndependentSet& chosen() const { return choice_.chosen(); }
+  const std::vector<CandidateIndex>& chosen() const { return choice_.chosen(); }
   const hybrid::HybridMesh& mesh() const { return mesh_; }
   // The mesh takes much memory; the choice alone does not.
   CheckedChoice take_choice() && { return std::move(choice_); }

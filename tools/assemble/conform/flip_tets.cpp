@@ -32,7 +32,7 @@ struct Flip {
 class Flipper {
  public:
   Flipper(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags) : mesh_(mesh), tags_(tags) {
-    for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
+    for (const auto c : indices<CellIndex>(mesh.cell_count())) {
       if (!mesh.cell(c).alive) continue;
       for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
         const Quad quad = mesh.cell(c).quad(i);
@@ -182,7 +182,7 @@ std::optional<Flip> Flipper::best_flip(TetIndex t) {
 std::int64_t Flipper::pass(double least) {
   std::int64_t flips = 0;
   // New tets are appended and get their turn.
-  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh_.tet_count()); ++t) {
+  for (TetIndex t(0); static_cast<std::size_t>(t) < mesh_.tet_count(); ++t) {
     if (!mesh_.is_alive(t) || quality(mesh_.tet(t)) >= least) continue;
     const auto flip = best_flip(t);
     if (!flip) continue;

@@ -145,9 +145,9 @@ void Peeler::collect_obstacles(const std::vector<Peel>& peels) {
   auto take = [](const KeySet<2>& of, Vertex a, Vertex b, KeySet<2>& taken) {
     if (of.contains(edge_key(a, b))) taken.insert(edge_key(a, b));
   };
-  for (hybrid::TaggedTriangle i = 0; i < static_cast<hybrid::TaggedTriangle>(tags_.size()); ++i)
+  for (const auto i : indices<hybrid::TaggedTriangle>(tags_.size()))
     for (int k = 0; k < 3; ++k) take(inner, tags_.triangle(i)[k], tags_.triangle(i)[(k + 1) % 3], boundary_edges_);
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh_.cell_count()); ++c) {
+  for (const auto c : indices<CellIndex>(mesh_.cell_count())) {
     const hybrid::HybridCell& cell = mesh_.cell(c);
     if (!cell.alive) continue;
     with_topology(cell.kind, [&](auto topology) {
@@ -171,7 +171,7 @@ bool Peeler::is_free(const Peel& peel) const {
 
 std::int64_t Peeler::run() {
   std::vector<Peel> peels;
-  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh_.tet_count()); ++t)
+  for (const auto t : indices<TetIndex>(mesh_.tet_count()))
     if (mesh_.is_alive(t) && is_flat(mesh_.tet(t)) && !is_at_seam(mesh_.tet(t)))
       if (const auto peel = peel_of(t)) peels.push_back(*peel);
   if (peels.empty()) return 0;

@@ -18,8 +18,7 @@ constexpr double least_gain_of_vertex = 0.005;
 
 std::int64_t split_flat_tets(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, double least) {
   std::int64_t vertices = 0;
-  const auto count = static_cast<TetIndex>(mesh.tet_count());
-  for (TetIndex t = 0; t < count; ++t) {
+  for (const auto t : indices<TetIndex>(mesh.tet_count())) {
     if (!mesh.is_alive(t)) continue;
     Cavity cavity(mesh, tags, t);
     if (cavity.worst_tet() >= least) continue;

@@ -36,9 +36,9 @@ bool is_valid(const GapMesh& gap, const GapCell& cell) {
 
 GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std::span<const std::uint8_t> is_shared)
     : mesh_(mesh), tags_(tags), at_(mesh.points.size()), age_(mesh.points.size()), holds_(mesh.points.size()) {
-  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tet_count()); ++t)
+  for (const auto t : indices<TetIndex>(mesh.tet_count()))
     if (mesh.is_alive(t)) add(make_tet(mesh.tet(t), mesh.region_of(t)), t);
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
+  for (const auto c : indices<CellIndex>(mesh.cell_count())) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive) continue;
     const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
@@ -51,20 +51,20 @@ GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std:
       for (const Vertex v : corners) holds_[v] |= of_kept;
     }
   }
-  for (hybrid::TaggedTriangle i = 0; i < static_cast<hybrid::TaggedTriangle>(tags.size()); ++i)
+  for (const auto i : indices<hybrid::TaggedTriangle>(tags.size()))
     for (const Vertex v : tags.triangle(i)) holds_[v] |= on_tagged;
   for (std::size_t v = 0; v < is_shared.size(); ++v)
     if (is_shared[v] != 0) holds_[v] |= at_seam;
   first_new_ = mesh.points.size();
-  kept_at_ = VertexItems(mesh.points.size(), [&](auto&& visit) {
-    for (std::size_t c = 0; c < kept_.size(); ++c)
-      for (const Vertex v : kept_[c].vertices()) visit(v, static_cast<KeptIndex>(c));
+  kept_at_ = VertexItemsOf<KeptIndex>(mesh.points.size(), [&](auto&& visit) {
+    for (const auto c : indices<KeptIndex>(kept_.size()))
+      for (const Vertex v : kept_[c].vertices()) visit(v, c);
   });
 }
 
 bool GapMesh::is_valid() const {
   constexpr double surely = 1e-6;
-  for (std::size_t c = 0; c < cells_.size(); ++c)
+  for (const auto c : indices<GapIndex>(cells_.size()))
     if (alive_[c] != 0 && cells_[c].quality < surely && !gap::is_valid(*this, cells_[c])) return false;
   return true;
 }
@@ -80,7 +80,7 @@ GapCell GapMesh::make_tet(const Tet& corners, std::int32_t region) const {
 }
 
 void GapMesh::add(const GapCell& cell, std::int32_t source) {
-  const auto c = static_cast<GapIndex>(cells_.size());
+  const GapIndex c(cells_.size());
   cells_.push_back(cell);
   alive_.push_back(1);
   source_.push_back(source);
@@ -121,8 +121,8 @@ void GapMesh::replace(std::span<const GapIndex> out, std::span<const GapCell> in
 }
 
 void GapMesh::undo_replace(std::span<const GapIndex> out, GapIndex first_new) {
-  for (auto c = first_new; c < static_cast<GapIndex>(cells_.size()); ++c) unlink(c);
   const auto left = static_cast<std::size_t>(first_new);
+  for (const auto c : indices<GapIndex>(left, cells_.size())) unlink(c);
   cells_.resize(left), alive_.resize(left), source_.resize(left);
   if (centres_.size() > left) centres_.resize(left);
   if (face_costs_.size() > left) face_costs_.resize(left);
@@ -177,15 +177,15 @@ void GapMesh::relocate(Vertex v, const Vec3& to) {
 void GapMesh::write_back() {
   for (const KeptCell& cell : kept_)
     if (!cell.is_alive && mesh_.cell(cell.source).alive) mesh_.remove_cell(cell.source);
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
+  for (const auto c : indices<GapIndex>(cells_.size())) {
     if (alive_[c] != 0 || source_[c] == no_index) continue;
     if (cells_[c].kind == CellKind::tet)
-      mesh_.remove_tet(source_[c]);
+      mesh_.remove_tet(TetIndex(source_[c]));
     else
-      mesh_.remove_cell(source_[c]);
+      mesh_.remove_cell(CellIndex(source_[c]));
     source_[c] = no_index;
   }
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
+  for (const auto c : indices<GapIndex>(cells_.size())) {
     if (alive_[c] == 0 || source_[c] != no_index) continue;
     const GapCell& cell = cells_[c];
     if (cell.kind == CellKind::tet) {

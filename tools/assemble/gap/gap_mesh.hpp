@@ -16,9 +16,9 @@
 
 namespace hexpipe::assemble::gap {
 
-// Numbers from 0 in a GapMesh.
-using GapIndex = std::int32_t;   // a cell of the gap
-using KeptIndex = std::int32_t;  // a chosen cell
+// In a GapMesh: a cell of the gap, and a chosen cell.
+using GapIndex = Index<struct GapKind>;
+using KeptIndex = Index<struct KeptKind>;
 
 struct GapCell {
   CellKind kind = CellKind::tet;
@@ -135,18 +135,19 @@ class GapMesh {
 
   hybrid::HybridMesh& mesh_;
   const hybrid::SurfaceTags& tags_;
-  std::vector<GapCell> cells_;
-  std::vector<std::uint8_t> alive_;
-  std::vector<std::int32_t> source_;  // by cell: its tet or cell in `mesh`, or no_index for a new one
+  IndexedVector<GapIndex, GapCell> cells_;
+  IndexedVector<GapIndex, std::uint8_t> alive_;
+  IndexedVector<GapIndex, std::int32_t> source_;  // its tet or cell in `mesh`, or no_index for a new one
   std::vector<std::vector<GapIndex>> at_;
   std::vector<std::uint32_t> age_;
   bool counts_faces_ = true;
   std::vector<std::uint8_t> holds_;
-  std::vector<KeptCell> kept_;
+  IndexedVector<KeptIndex, KeptCell> kept_;
   std::size_t first_new_ = 0;  // vertices from here on were added: no chosen cell has them
-  VertexItems kept_at_;
-  mutable std::vector<std::optional<Vec3>> centres_, kept_centres_;
-  mutable std::vector<FaceCost> face_costs_;
+  VertexItemsOf<KeptIndex> kept_at_;
+  mutable IndexedVector<GapIndex, std::optional<Vec3>> centres_;
+  mutable IndexedVector<KeptIndex, std::optional<Vec3>> kept_centres_;
+  mutable IndexedVector<GapIndex, FaceCost> face_costs_;
 };
 
 // Whether the Jacobian of a cell is positive everywhere.

@@ -33,9 +33,8 @@ class Mender {
     std::int64_t changes = 0;
     for (int pass = 0; pass < most_mending_passes; ++pass) {
       const std::int64_t before = changes;
-      const auto count = static_cast<GapIndex>(gap_.cell_count());
       seen_.resize(gap_.cell_count(), never);
-      for (GapIndex c = 0; c < count; ++c) {
+      for (const auto c : indices<GapIndex>(gap_.cell_count())) {
         if (!gap_.is_alive(c) || seen_[c] == gap_.age_of_cell(c)) continue;
         if (mend(c))
           ++changes;

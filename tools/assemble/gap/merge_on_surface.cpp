@@ -46,7 +46,7 @@ class SurfaceMerger {
  public:
   SurfaceMerger(GapMesh& gap, hybrid::SurfaceTags& tags, const InputSurface& surface)
       : gap_(gap), tags_(tags), surface_(surface), triangles_at_(gap.vertex_count()), gone_at_(gap.vertex_count()) {
-    for (TaggedTriangle i = 0; i < static_cast<TaggedTriangle>(tags.size()); ++i)
+    for (const auto i : indices<TaggedTriangle>(tags.size()))
       if (tags.find(tags.triangle(i)) == i)
         for (const Vertex v : tags.triangle(i)) triangles_at_[v].push_back(i);
     for (const auto& [from, into] : tags.merges()) move_gone(from, into);

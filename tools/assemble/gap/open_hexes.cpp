@@ -169,7 +169,7 @@ std::vector<Vertex> HexOpener::movable(std::span<const Facet> skin) const {
 
 // Whether the new cells are good enough, and the poor one, if it is still there.
 bool HexOpener::are_good_enough(GapIndex poor, GapIndex first_new) const {
-  for (auto c = first_new; c < static_cast<GapIndex>(gap_.cell_count()); ++c)
+  for (const auto c : indices<GapIndex>(first_new, gap_.cell_count()))
     if (gap_.cell(c).quality < least_wanted || !is_valid(gap_, gap_.cell(c))) return false;
   return !gap_.is_alive(poor) || gap_.cell(poor).quality >= least_wanted;
 }
@@ -208,7 +208,7 @@ bool HexOpener::fill(std::vector<Facet> skin, std::span<const GapIndex> out, Gap
 
   std::vector<GapCell> in;
   for (const Facet& facet : skin) in.push_back(cell_on(gap_, facet, spare_, region));
-  const auto first_new = static_cast<GapIndex>(gap_.cell_count());
+  const GapIndex first_new(gap_.cell_count());
   gap_.replace(out, in);
 
   std::vector<Vertex> moving = movable(skin);
@@ -250,8 +250,7 @@ bool HexOpener::open(KeptIndex kept, GapIndex poor) {
 Opened HexOpener::run() {
   Opened result;
   const std::size_t most = gap_.kept_count() / chosen_per_opened + opened_in_any_case;
-  const auto count = static_cast<GapIndex>(gap_.cell_count());
-  for (GapIndex c = 0; c < count; ++c) {
+  for (const auto c : indices<GapIndex>(gap_.cell_count())) {
     if (!gap_.is_alive(c) || gap_.cell(c).quality >= least_wanted) continue;
     if (insert(c)) {
       ++result.inserted;

@@ -38,10 +38,12 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
     before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
     for (const KeptIndex c : gap_.kept_at(v)) kept.push_back(c);
   }
-  for (auto* list : {&before_, &kept}) {
-    std::ranges::sort(*list);
-    list->erase(std::unique(list->begin(), list->end()), list->end());
-  }
+  const auto sort_unique = [](auto& list) {
+    std::ranges::sort(list);
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  sort_unique(before_);
+  sort_unique(kept);
   for (const GapIndex c : before_)
     if (std::ranges::find(replacement.out, c) == replacement.out.end())
       add({gap_.cell(c).kind, false, gap_.cell(c).region, std::min(gap_.cell(c).quality, floor_), {}},

@@ -79,14 +79,12 @@ void Rooms::refill_rings_of(GapIndex c) {
 }
 
 void Rooms::refill_rings() {
-  const auto count = static_cast<GapIndex>(gap_.cell_count());
-  for (GapIndex c = 0; c < count; ++c)
+  for (const auto c : indices<GapIndex>(gap_.cell_count()))
     if (gap_.is_alive(c)) refill_rings_of(c);
 }
 
 void Rooms::refill_poor() {
-  const auto count = static_cast<GapIndex>(gap_.cell_count());
-  for (GapIndex c = 0; c < count; ++c)
+  for (const auto c : indices<GapIndex>(gap_.cell_count()))
     if (gap_.is_alive(c) && gap_.cell(c).quality < least_quality &&
         std::ranges::any_of(gap_.cell(c).vertices(), [&](Vertex v) { return has_changed(v); }))
       counts_.poor += refill_around(gap_, refill_, c) ? 1 : 0;

@@ -22,7 +22,7 @@ void append_facets(MixedMesh& result, const HybridMesh& mesh, const SurfaceTags&
   // By input triangle: whether a quad covers it.
   std::vector<bool> covered(tags.size());
   std::vector<std::pair<TaggedTriangle, Quad>> quads;
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c) {
+  for (const auto c : indices<CellIndex>(mesh.cell_count())) {
     if (!mesh.cell(c).alive) continue;
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
       const auto cover = tags.cover_of(mesh.cell(c).quad(i));
@@ -34,7 +34,7 @@ void append_facets(MixedMesh& result, const HybridMesh& mesh, const SurfaceTags&
   std::sort(quads.begin(), quads.end());
   for (const auto& [triangle, quad] : quads)
     append(result.quads, oriented_like(tags.triangle(triangle), quad), tags.tag_of(triangle));
-  for (TaggedTriangle i = 0; i < static_cast<TaggedTriangle>(covered.size()); ++i)
+  for (const auto i : indices<TaggedTriangle>(covered.size()))
     if (!covered[i] && tags.find(tags.triangle(i)) == i) append(result.triangles, tags.triangle(i), tags.tag_of(i));
 }
 
@@ -82,10 +82,10 @@ void append_cell(MixedMesh& mesh, CellKind kind, std::span<const Vertex> corners
 
 Extract extract(const HybridMesh& mesh, const SurfaceTags& tags) {
   Extract result;
-  for (CellIndex c = 0; c < static_cast<CellIndex>(mesh.cell_count()); ++c)
+  for (const auto c : indices<CellIndex>(mesh.cell_count()))
     if (const HybridCell& cell = mesh.cell(c); cell.alive)
       append_cell(result.mesh, cell.kind, cell.corners, cell.region);
-  for (TetIndex t = 0; t < static_cast<TetIndex>(mesh.tet_count()); ++t)
+  for (const auto t : indices<TetIndex>(mesh.tet_count()))
     if (mesh.is_alive(t)) append(result.mesh.tets, mesh.tet(t), mesh.region_of(t));
   append_facets(result.mesh, mesh, tags);
   drop_unused_points(result, mesh.points);

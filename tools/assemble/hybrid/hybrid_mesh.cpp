@@ -21,8 +21,8 @@ HybridMesh::HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed)
       first_(mesh.points.size(), no_index),
       next_(4 * mesh.tets.size(), no_index) {
   assert(removed.size() == tets_.size());
-  for (TetIndex t = static_cast<TetIndex>(tets_.size()) - 1; t >= 0; --t)
-    if (!removed[t]) link(t);
+  for (std::size_t t = tets_.size(); t-- > 0;)
+    if (!removed[t]) link(TetIndex(t));
 }
 
 Vertex HybridMesh::add_point(const Vec3& at) {
@@ -53,7 +53,7 @@ void HybridMesh::unlink(TetIndex t) {
 }
 
 TetIndex HybridMesh::add_tet(const Tet& tet, std::int32_t region) {
-  const auto t = static_cast<TetIndex>(tets_.size());
+  const TetIndex t(tets_.size());
   tets_.push_back(tet);
   regions_.push_back(region);
   alive_.push_back(0);
@@ -93,10 +93,10 @@ void HybridMesh::tets_around_edge(Vertex a, Vertex b, std::vector<TetIndex>& out
 }
 
 CellIndex HybridMesh::add_cell(const HybridCell& cell) {
-  const auto c = static_cast<CellIndex>(cells_.size());
+  const CellIndex c(cells_.size());
   cells_.push_back(cell);
   for (int i = 0; i < cell.quad_count(); ++i) {
-    auto [entry, added] = cells_at_quad_.try_emplace(key_of(cell.quad(i)), std::array{c, no_index});
+    auto [entry, added] = cells_at_quad_.try_emplace(key_of(cell.quad(i)), std::array<CellIndex, 2>{c, no_index});
     if (added) continue;
     auto& cells = entry.value();
     assert(cells[0] == no_index || cells[1] == no_index);

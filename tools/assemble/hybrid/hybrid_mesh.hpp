@@ -14,8 +14,7 @@
 
 namespace hexpipe::assemble {
 
-// A number from 0, with a name of its own as Vertex has; no_index stands for none.
-using CellIndex = std::int32_t;  // in a HybridMesh
+using CellIndex = Index<struct CellOfHybridMesh>;
 
 }  // namespace hexpipe::assemble
 
@@ -61,7 +60,7 @@ class HybridMesh {
   // Calls visit(tet) for the tets at v, in an order that depends only on how the mesh came about.
   template <class Visit>
   void for_tets_at(Vertex v, Visit&& visit) const {
-    for (std::int64_t slot = first_[v]; slot >= 0; slot = next_[slot]) visit(static_cast<TetIndex>(slot / 4));
+    for (std::int64_t slot = first_[v]; slot >= 0; slot = next_[slot]) visit(TetIndex(slot / 4));
   }
   // The tet that has the triangle, other than `except`; no_index if there is none.
   TetIndex tet_at(const Triangle& triangle, TetIndex except = no_index) const;
@@ -79,13 +78,13 @@ class HybridMesh {
   void link(TetIndex t);
   void unlink(TetIndex t);
 
-  std::vector<Tet> tets_;
-  std::vector<std::int32_t> regions_;
-  std::vector<std::uint8_t> alive_;
+  IndexedVector<TetIndex, Tet> tets_;
+  IndexedVector<TetIndex, std::int32_t> regions_;
+  IndexedVector<TetIndex, std::uint8_t> alive_;
   // The tets at a vertex are a linked list: slot 4 t + i stands for corner i of tet t.
   std::vector<std::int64_t> first_, next_;
 
-  std::vector<HybridCell> cells_;
+  IndexedVector<CellIndex, HybridCell> cells_;
   KeyMap<4, std::array<CellIndex, 2>> cells_at_quad_;
 };
 

@@ -36,8 +36,7 @@ SurfaceTags::SurfaceTags(const TetMesh& mesh)
   numbers_.reserve(triangles_.size());
   for (const Triangle& triangle : triangles_)
     for (const Vertex v : triangle) is_on_any_[v] = true;
-  for (std::size_t i = 0; i < triangles_.size(); ++i)
-    numbers_.try_emplace(key_of(triangles_[i]), static_cast<TaggedTriangle>(i));
+  for (const auto i : indices<TaggedTriangle>(triangles_.size())) numbers_.try_emplace(key_of(triangles_[i]), i);
 }
 
 void SurfaceTags::peel(const Tet& tet, const std::array<TaggedTriangle, 2>& places,

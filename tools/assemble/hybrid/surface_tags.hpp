@@ -18,8 +18,8 @@ namespace hexpipe::assemble::hybrid {
 // interfaces is among them.
 void complete_surface(TetMesh& mesh, const TetAdjacency& adjacency);
 
-// The number of a tagged triangle in SurfaceTags, from 0.
-using TaggedTriangle = std::int32_t;
+// A tagged triangle in SurfaceTags.
+using TaggedTriangle = Index<struct TaggedTriangleKind>;
 
 // The tagged triangles and what covers a quad, less the flat tets that were peeled off the boundary (flat_tets.hpp)
 // and the vertices that merged along it (gap/passes.hpp).
@@ -61,8 +61,8 @@ class SurfaceTags {
   bool covers_partly(const Quad& quad, int diagonal) const;
 
  private:
-  std::vector<Triangle> triangles_;
-  std::vector<std::int32_t> tags_;
+  IndexedVector<TaggedTriangle, Triangle> triangles_;
+  IndexedVector<TaggedTriangle, std::int32_t> tags_;
   KeyMap<3, TaggedTriangle> numbers_;
   std::vector<bool> is_on_any_;  // by vertex; answers at once for most triangles, because they lie inside
   std::vector<Tet> peeled_;

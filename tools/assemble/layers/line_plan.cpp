@@ -30,8 +30,8 @@ constexpr int rounds_of_leaning = 20;
 // Lines lean only where the layers are this high beside the edges of the wall.
 constexpr double leans_above = 0.3;
 
-VertexItems neighbours_of(const Walls& walls) {
-  return VertexItems(walls.lines().size(), [&](auto&& visit) {
+VertexItemsOf<LineIndex> neighbours_of(const Walls& walls) {
+  return VertexItemsOf<LineIndex>(walls.lines().size(), [&](auto&& visit) {
     for (const LineEdge& edge : walls.edges()) visit(edge.lines[0], edge.lines[1]), visit(edge.lines[1], edge.lines[0]);
   });
 }
@@ -142,7 +142,7 @@ class Planner {
   const Walls& walls_;
   std::span<const double> asked_;
   std::span<const std::uint8_t> bare_;
-  VertexItems neighbours_;  // by line
+  VertexItemsOf<LineIndex> neighbours_;  // by line
   std::vector<double> heights_;
   std::vector<std::uint8_t> grows_;
   std::vector<GuideFreedom> freedoms_;

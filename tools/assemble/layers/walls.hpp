@@ -17,7 +17,7 @@ struct WallGroup {
   std::vector<std::int32_t> regions{};  // none: all
 };
 
-using LineIndex = std::int32_t;
+using LineIndex = Index<struct LineKind>;
 
 // The vertices of a facet, ascending; a triangle ends with no_index.
 using FacetVertices = std::array<Vertex, 4>;

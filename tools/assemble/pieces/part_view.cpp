@@ -42,7 +42,7 @@ class ChosenCells {
            std::span<const Vertex> points, std::span<const TetIndex> tets, const std::string& source) {
     const auto bundle = static_cast<std::int32_t>(view_.bundles.size());
     view_.bundles.push_back(source);
-    for (const CandidateIndex i : chosen) {
+    for (const std::int32_t i : chosen) {
       if (i < 0 || static_cast<std::size_t>(i) >= from.size())
         throw DataError::at(source, "expected candidates from 1 to {} in the solution, found {}", from.size(), i + 1);
       if (keys.part[i] != part || !is_within(from.corners_of(i), points)) continue;
@@ -57,7 +57,7 @@ class ChosenCells {
 
   void sort() {
     std::vector<CandidateIndex> order(view_.keys.key.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::iota(order.begin(), order.end(), CandidateIndex(0));
     std::ranges::sort(order, {}, [&](CandidateIndex i) { return view_.keys.key[i]; });
     view_.cells = select(view_.cells, order);
     view_.keys = select(view_.keys, order);
@@ -98,7 +98,7 @@ PartView view_part(SolvedPart own, const std::vector<std::string>& neighbours, c
       throw DataError::at(other.name, "expected a solution made with the version and options of {}, found another",
                           source);
     const auto points = places_in(view.part.point_number, other.part.point_number);
-    const auto tets = places_in(view.part.tet_number, other.part.tet_number);
+    const auto tets = places_in<TetIndex>(view.part.tet_number, other.part.tet_number);
     cells.add(other.candidates, other.keys, *other.chosen, other.part.part, points, tets, other.name);
   });
   cells.sort();

@@ -39,15 +39,15 @@ class Cutter {
 
   void take_tets(const std::vector<CandidateIndex>& guests) {
     std::vector<std::uint8_t> taken(view_.mesh.tets.size());
-    for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = is_here(static_cast<TetIndex>(t)) ? 1 : 0;
+    for (const auto t : indices<TetIndex>(taken.size())) taken[t] = is_here(t) ? 1 : 0;
     for (const CandidateIndex i : guests) {
       for (const TetIndex t : view_.cells.interior_tets_of(i)) taken[t] = 2;
       for (const TetIndex t : view_.cells.boundary_tets_of(i))
         if (pieces_.of_tet[t] == view_.keys.part[i]) taken[t] = 2;
     }
-    for (std::size_t t = 0; t < taken.size(); ++t) {
+    for (const auto t : indices<TetIndex>(taken.size())) {
       if (taken[t] == 0) continue;
-      tet_place_[t] = static_cast<TetIndex>(result_.mesh.tets.size());
+      tet_place_[t] = TetIndex(result_.mesh.tets.size());
       result_.mesh.tets.push_back(view_.mesh.tets[t]);
       result_.mesh.tet_tags.push_back(taken[t] == 1 ? view_.mesh.tet_tags[t] : result_.seam.guest_region);
     }
@@ -60,7 +60,7 @@ class Cutter {
     std::vector<std::uint8_t> used(view_.mesh.triangles.size());
     std::vector<Triangle> ends;
     std::vector<std::int32_t> end_tags;
-    for (TetIndex t = 0; t < static_cast<TetIndex>(tet_place_.size()); ++t) {
+    for (const auto t : indices<TetIndex>(tet_place_.size())) {
       if (tet_place_[t] == no_index) continue;
       for (int i = 0; i < 4; ++i) {
         const TetIndex beyond = adjacency_.tet_beyond(t, i);

@@ -53,7 +53,7 @@ std::vector<std::vector<TetIndex>> groups_of(const std::vector<OpenRing>& rings,
     }
   std::ranges::sort(tets);
   tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
-  std::map<TetIndex, std::vector<TetIndex>> groups;
+  std::map<std::int32_t, std::vector<TetIndex>> groups;  // by the number of the set
   for (const TetIndex t : tets) groups[joined.of(t)].push_back(t);
   std::vector<std::vector<TetIndex>> result;
   result.reserve(groups.size());
@@ -66,7 +66,7 @@ class Division {
   Division(const PartView& view, const TetAdjacency& adjacency, const hybrid::HybridMesh& chosen)
       : view_(view), adjacency_(adjacency), rings_(open_rings(chosen)) {
     pieces_.of_tet.resize(view.mesh.tets.size());
-    for (TetIndex t = 0; t < static_cast<TetIndex>(pieces_.of_tet.size()); ++t) pieces_.of_tet[t] = home_of(view, t);
+    for (const auto t : indices<TetIndex>(pieces_.of_tet.size())) pieces_.of_tet[t] = home_of(view, t);
   }
 
   void move_groups() {
@@ -85,7 +85,7 @@ class Division {
 
   // Tets go where their homes have said.
   void hear(const RoundBefore& before) {
-    for (TetIndex t = 0; t < static_cast<TetIndex>(pieces_.of_tet.size()); ++t) {
+    for (const auto t : indices<TetIndex>(pieces_.of_tet.size())) {
       const std::int32_t home = home_of(view_, t);
       if (home == view_.part.part || !std::ranges::binary_search(before.known_homes, home)) continue;
       const auto found = std::ranges::lower_bound(before.moved_tets, view_.part.tet_number[t]);
@@ -95,7 +95,7 @@ class Division {
   }
 
   void note_moved() {
-    for (TetIndex t = 0; t < static_cast<TetIndex>(pieces_.of_tet.size()); ++t) {
+    for (const auto t : indices<TetIndex>(pieces_.of_tet.size())) {
       if (pieces_.of_tet[t] == view_.part.part || home_of(view_, t) != view_.part.part) continue;
       pieces_.moved_tets.push_back(view_.part.tet_number[t]);
       pieces_.moved_to.push_back(pieces_.of_tet[t]);
@@ -148,9 +148,9 @@ class Division {
   Pieces pieces_;
 };
 
-graph::IndependentSet all_but(const PartView& view, std::span<const std::uint64_t> given_back) {
-  graph::IndependentSet rest;
-  for (CandidateIndex i = 0; i < static_cast<CandidateIndex>(view.cells.size()); ++i)
+std::vector<CandidateIndex> all_but(const PartView& view, std::span<const std::uint64_t> given_back) {
+  std::vector<CandidateIndex> rest;
+  for (const auto i : indices<CandidateIndex>(view.cells.size()))
     if (!std::ranges::binary_search(given_back, view.keys.key[i])) rest.push_back(i);
   return rest;
 }
@@ -173,7 +173,7 @@ SeamCells cells_at_seams(const PartView& view, const hybrid::SurfaceTags& tags, 
   SeamCells result;
   const std::int32_t here = view.part.part;
   const auto is_own = [&](CandidateIndex i) { return view.keys.part[i] == here; };
-  graph::IndependentSet left = all_but(view, given_back);
+  std::vector<CandidateIndex> left = all_but(view, given_back);
   for (bool changed = true; changed;) {
     changed = false;
     result.guests.clear();

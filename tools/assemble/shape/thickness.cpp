@@ -13,7 +13,7 @@ namespace {
 constexpr int most_tets = 1000;
 
 struct Facet {
-  std::int32_t tet;
+  TetIndex tet;
   int number;
 };
 
@@ -68,7 +68,7 @@ double RayWalk::length(Facet entry, double reach) const {
   for (int step = 0; step < most_tets; ++step) {
     const Exit exit = exit_of(entry, from, inwards);
     if (!(exit.distance < reach)) return reach;
-    const std::int32_t beyond = adjacency_.tet_beyond(entry.tet, exit.facet);
+    const TetIndex beyond = adjacency_.tet_beyond(entry.tet, exit.facet);
     if (!goes_on(entry.tet, beyond)) return std::max(exit.distance, 0.0);
     const auto back = std::ranges::find(adjacency_.tets_beyond(beyond), entry.tet);
     entry = {beyond, static_cast<int>(back - adjacency_.tets_beyond(beyond).begin())};
@@ -79,7 +79,7 @@ double RayWalk::length(Facet entry, double reach) const {
 // Calls visit(facet) for each facet of a tet that the triangle is: at most two.
 template <class Visit>
 void for_each_side(const TetMesh& mesh, const TetAdjacency& adjacency, const Triangle& triangle, Visit&& visit) {
-  for (const std::int32_t t : adjacency.tets_at(triangle[0])) {
+  for (const TetIndex t : adjacency.tets_at(triangle[0])) {
     const Tet& tet = mesh.tets[t];
     const auto is_corner = [&](Vertex v) { return std::ranges::find(triangle, v) != triangle.end(); };
     if (std::ranges::count_if(tet, is_corner) != 3) continue;

@@ -97,8 +97,8 @@ std::optional<std::array<Vertex, 8>> corners_now(const ChosenHex& hex, const Mes
 ChosenHex unchanged(const ChosenHex& before, const std::array<Vertex, 8>& corners, const MeshChange& change) {
   ChosenHex hex = before;
   hex.corners = corners;
-  for (std::vector<std::int32_t>* tets : {&hex.interior_tets, &hex.boundary_tets}) {
-    for (std::int32_t& t : *tets) t = change.tet_now[t];
+  for (std::vector<TetIndex>* tets : {&hex.interior_tets, &hex.boundary_tets}) {
+    for (TetIndex& t : *tets) t = change.tet_now[t];
     std::ranges::sort(*tets);
   }
   return hex;

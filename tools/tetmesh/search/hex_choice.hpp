@@ -17,7 +17,7 @@ namespace hexpipe::tetmesh::search {
 struct ChosenHex {
   double volume, quality;  // quality: the least scaled Jacobian of the corners
   std::array<Vertex, 8> corners;
-  std::vector<std::int32_t> interior_tets, boundary_tets;  // boundary tets: slivers on its quads
+  std::vector<TetIndex> interior_tets, boundary_tets;  // boundary tets: slivers on its quads
 };
 
 // `kicks` is the number of kicks for each hex, see common/mwis/local_search/annealing.hpp.

@@ -46,11 +46,11 @@ JudgedMesh judge(tetgen::BuiltMesh built, std::vector<ChosenHex> hexes) {
   KeyMap<4, int> hexes_on;
   for (std::size_t h = 0; h < judged.hexes.size(); ++h) {
     for (const auto* tets : {&judged.hexes[h].interior_tets, &judged.hexes[h].boundary_tets})
-      for (const std::int32_t t : *tets) judged.hex_of_tet[t] = static_cast<std::int32_t>(h);
+      for (const TetIndex t : *tets) judged.hex_of_tet[t] = static_cast<std::int32_t>(h);
     for (const LocalQuad& local : HexTopology::quads) ++hexes_on[key_of(quad_of(judged.hexes[h], local))];
   }
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    if (judged.hex_of_tet[t] == no_index) judged.left.push_back(static_cast<std::int32_t>(t));
+  for (const auto t : indices<TetIndex>(mesh.tets.size()))
+    if (judged.hex_of_tet[t] == no_index) judged.left.push_back(t);
   for (const ChosenHex& hex : judged.hexes) {
     int open = 0;
     for (const LocalQuad& local : HexTopology::quads) {

@@ -15,7 +15,7 @@ struct JudgedMesh {
   tetgen::BuiltMesh built;
   std::vector<ChosenHex> hexes;          // chosen
   std::vector<std::int32_t> hex_of_tet;  // or no_index
-  std::vector<std::int32_t> left;        // tets of no hex
+  std::vector<TetIndex> left;            // tets of no hex
 
   // By hex: its middle, and its worth. The worth is the volume, less the cost of closing the quads that have no hex and
   // no boundary on the other side: assemble puts pyramids there, and moves vertices until these are no slivers.

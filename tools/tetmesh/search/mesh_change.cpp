@@ -39,7 +39,7 @@ MeshChange::MeshChange(const MeshIndex& before, const TetMesh& now)
     // The key of a tet with a new vertex contains no_index, and is not found.
     const auto found = before.tet_of_.find(key_of(corners));
     if (found != before.tet_of_.end())
-      tet_now[found->second] = static_cast<std::int32_t>(t);
+      tet_now[found->second] = TetIndex(t);
     else
       for (const Vertex v : now.tets[t]) is_touched[v] = true;
   }

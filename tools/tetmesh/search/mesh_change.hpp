@@ -29,9 +29,9 @@ class MeshIndex {
 struct MeshChange {
   MeshChange(const MeshIndex& before, const TetMesh& now);
 
-  std::vector<Vertex> vertex_now;     // by vertex before, or no_index
-  std::vector<std::int32_t> tet_now;  // by tet before, or no_index
-  std::vector<bool> is_touched;       // by vertex now: a tet at it has come or gone
+  std::vector<Vertex> vertex_now;  // by vertex before, or no_index
+  std::vector<TetIndex> tet_now;   // by tet before, or no_index
+  std::vector<bool> is_touched;    // by vertex now: a tet at it has come or gone
 };
 
 }  // namespace hexpipe::tetmesh::search

@@ -60,13 +60,13 @@ ChangeDrawer::ChangeDrawer(const JudgedMesh& judged, Vertex first_inside, const 
       clearance_(clearance),
       surface_(surface) {}
 
-PointChange ChangeDrawer::draw(std::int32_t tet, const Vec3& middle, double size, Random& random) const {
+PointChange ChangeDrawer::draw(TetIndex tet, const Vec3& middle, double size, Random& random) const {
   PointChange change;
   for (int i = 0; i < most_draws && change.is_nothing(); ++i) change = draw_any(tet, middle, size, random);
   return change;
 }
 
-PointChange ChangeDrawer::draw_any(std::int32_t tet, const Vec3& middle, double size, Random& random) const {
+PointChange ChangeDrawer::draw_any(TetIndex tet, const Vec3& middle, double size, Random& random) const {
   const Tet& corners = mesh_.tets[tet];
   const std::uint64_t kind = random.below(8);
   if (kind < 2) return set_hex_on(tet, size, random);
@@ -123,13 +123,13 @@ PointChange ChangeDrawer::add_one(const Vec3& middle, double size, Random& rando
 }
 
 // On one of the tet's facets.
-PointChange ChangeDrawer::set_hex_on(std::int32_t tet, double size, Random& random) const {
+PointChange ChangeDrawer::set_hex_on(TetIndex tet, double size, Random& random) const {
   const auto facet = static_cast<int>(random.below(4));
   std::int32_t beside = no_index;
   Triangle triangle{};
   for (int i = 0; i < 4 && beside == no_index; ++i) {
     const int f = (facet + i) % 4;
-    const std::int32_t beyond = adjacency_.tet_beyond(tet, f);
+    const TetIndex beyond = adjacency_.tet_beyond(tet, f);
     if (beyond == no_index || judged_.hex_of_tet[beyond] == no_index) continue;
     beside = judged_.hex_of_tet[beyond];
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = mesh_.tets[tet][TetTopology::triangles[f][k]];

@@ -34,17 +34,17 @@ class ChangeDrawer {
 
   // `middle` is the tet's middle, and `size` the size there. The result is nothing if all that it drew is too near to
   // the surface, or outside.
-  PointChange draw(std::int32_t tet, const Vec3& middle, double size, Random& random) const;
+  PointChange draw(TetIndex tet, const Vec3& middle, double size, Random& random) const;
 
  private:
-  PointChange draw_any(std::int32_t tet, const Vec3& middle, double size, Random& random) const;
+  PointChange draw_any(TetIndex tet, const Vec3& middle, double size, Random& random) const;
   bool is_free(const Vec3& p, double size) const;
   bool is_inside(Vertex v) const { return v >= first_inside_; }
   PointChange move_one(Vertex v, double size, Random& random) const;
   PointChange join(Vertex v, double size) const;
   PointChange change_surface(Vertex v, double size, Random& random) const;
   PointChange add_one(const Vec3& middle, double size, Random& random) const;
-  PointChange set_hex_on(std::int32_t tet, double size, Random& random) const;
+  PointChange set_hex_on(TetIndex tet, double size, Random& random) const;
   Vertex nearest_to(const Vec3& place, std::span<const Vertex> around, double reach) const;
 
   const JudgedMesh& judged_;

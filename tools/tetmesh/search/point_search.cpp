@@ -23,7 +23,7 @@ constexpr double least_gain = 1e-3;             // in cubes of the size
 struct Place {
   Vec3 middle;
   double size;
-  std::int32_t tet;  // one that is left
+  TetIndex tet;  // one that is left
 };
 
 class PointSearch {
@@ -127,11 +127,11 @@ std::vector<const PointChange*> PointSearch::best_changes(std::span<const Place>
 // Chooses tets that are left, so far apart that changes at one do not reach another.
 std::vector<Place> PointSearch::choose_places(Random& random) const {
   const TetMesh& mesh = current_.built.mesh;
-  std::vector<std::int32_t> order = current_.left;
+  std::vector<TetIndex> order = current_.left;
   random.shuffle(std::span(order));
   std::vector<Place> places;
   geometry::SizedPointGrid chosen(box_);
-  for (const std::int32_t t : order) {
+  for (const TetIndex t : order) {
     const Tet& corners = mesh.tets[t];
     const Vec3 middle =
         0.25 * (mesh.points[corners[0]] + mesh.points[corners[1]] + mesh.points[corners[2]] + mesh.points[corners[3]]);

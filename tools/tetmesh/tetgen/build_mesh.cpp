@@ -84,7 +84,7 @@ class RegionFinder {
   const TetAdjacency& adjacency_;
   std::vector<std::int32_t> regions_;
   std::vector<std::array<bool, 4>> on_surface_;  // for each tet and facet
-  std::vector<std::int32_t> queue_;
+  std::vector<TetIndex> queue_;
   std::size_t lost_ = 0, first_lost_ = 0;
 };
 
@@ -92,7 +92,7 @@ void RegionFinder::place_beside(std::size_t triangle) {
   const Triangle corners = surface_.triangles[triangle];
   const solid::Shell& shell = surface_.shells[surface_.shell_of[triangle]];
   bool found_behind = false, found_in_front = false;
-  for (const std::int32_t t : adjacency_.tets_at(corners[0])) {
+  for (const TetIndex t : adjacency_.tets_at(corners[0])) {
     const Tet& tet = mesh_.tets[t];
     for (std::size_t facet = 0; facet < 4; ++facet) {
       Triangle outward;
@@ -120,11 +120,11 @@ void RegionFinder::place(TetIndex tet, std::int32_t region) {
 
 void RegionFinder::spread() {
   while (!queue_.empty()) {
-    const std::int32_t t = queue_.back();
+    const TetIndex t = queue_.back();
     queue_.pop_back();
     for (int facet = 0; facet < 4; ++facet) {
       if (on_surface_[t][facet]) continue;
-      const std::int32_t beyond = adjacency_.tet_beyond(t, facet);
+      const TetIndex beyond = adjacency_.tet_beyond(t, facet);
       if (beyond != no_index) {
         place(beyond, regions_[t]);
       } else if (regions_[t] != solid::outside_region) {

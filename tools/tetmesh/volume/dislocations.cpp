@@ -78,7 +78,7 @@ class LineTracer {
 
  private:
   struct Pierced {
-    std::int32_t tet, beyond;  // no_index: outside
+    TetIndex tet, beyond;  // no_index: outside
     Triangle corners;
     std::int32_t ends;
   };
@@ -95,17 +95,17 @@ class LineTracer {
   };
   struct TetRows {
     std::vector<Pierced> pierced;
-    std::vector<std::int32_t> singular;  // tets with a facet where rows cannot be counted
+    std::vector<TetIndex> singular;  // tets with a facet where rows cannot be counted
   };
 
-  Triangle corners_of(std::int32_t tet, std::size_t facet) const {
+  Triangle corners_of(TetIndex tet, std::size_t facet) const {
     const auto& [a, b, c] = TetTopology::triangles[facet];
     const Tet& t = mesh_.tets[tet];
     return {t[a], t[b], t[c]};
   }
   void find_pierced();
-  void count_in(std::int32_t tet, TetRows& rows) const;
-  std::int32_t stop_in(std::int32_t tet);
+  void count_in(TetIndex tet, TetRows& rows) const;
+  std::int32_t stop_in(TetIndex tet);
   void add_step(const Pierced& pierced);
   void smooth();
   std::int32_t line_of(std::int32_t stop);
@@ -124,10 +124,10 @@ class LineTracer {
 };
 
 // Each triangle once, from the tet with the lower number.
-void LineTracer::count_in(std::int32_t tet, TetRows& rows) const {
+void LineTracer::count_in(TetIndex tet, TetRows& rows) const {
   bool singular = false;
   for (std::size_t facet = 0; facet < 4; ++facet) {
-    const std::int32_t beyond = adjacency_.tet_beyond(tet, static_cast<int>(facet));
+    const TetIndex beyond = adjacency_.tet_beyond(tet, static_cast<int>(facet));
     const Triangle corners = corners_of(tet, facet);
     const auto ends = counter_.ends_in(corners);
     singular = singular || !ends;
@@ -143,16 +143,16 @@ void LineTracer::find_pierced() {
       static_cast<std::int64_t>(mesh_.tets.size()), 2048,
       [&](std::int64_t begin, std::int64_t end) {
         TetRows rows;
-        for (std::int64_t t = begin; t < end; ++t) count_in(static_cast<std::int32_t>(t), rows);
+        for (std::int64_t t = begin; t < end; ++t) count_in(TetIndex(t), rows);
         return rows;
       },
       [&](const TetRows& rows) {
         pierced_.insert(pierced_.end(), rows.pierced.begin(), rows.pierced.end());
-        for (const std::int32_t tet : rows.singular) is_singular_[tet] = true;
+        for (const TetIndex tet : rows.singular) is_singular_[tet] = true;
       });
 }
 
-std::int32_t LineTracer::stop_in(std::int32_t tet) {
+std::int32_t LineTracer::stop_in(TetIndex tet) {
   if (stop_of_tet_[tet] == no_index) {
     Vec3 sum;
     for (const Vertex v : mesh_.tets[tet]) sum += mesh_.points[v];

@@ -35,7 +35,7 @@ struct RoughHex {
   double quality;
   double volume;
   std::array<Vertex, 8> corners;
-  std::vector<std::int32_t> tets;  // interior
+  std::vector<TetIndex> tets;  // interior
 };
 
 class HexSearch {
@@ -63,7 +63,7 @@ class HexSearch {
   const TetAdjacency& adjacency_;
   std::vector<Vertex> edges_;
   std::vector<Side> sides_;
-  std::vector<std::int32_t> tets_;
+  std::vector<TetIndex> tets_;
 };
 
 bool HexSearch::is_square(const Vec3& a, const Vec3& b) const {
@@ -142,7 +142,7 @@ void HexSearch::complete(Vertex lowest, const Side& ab, const Side& ac, const Si
 void HexSearch::collect_tets(RoughHex& hex) {
   std::uint64_t sieve = 0;  // its bits rule out most vertices that are no corners
   for (const Vertex v : hex.corners) sieve |= std::uint64_t{1} << (v % 64);
-  const auto is_inside = [&](std::int32_t t) {
+  const auto is_inside = [&](TetIndex t) {
     unsigned corners = 0;
     for (const Vertex v : mesh_.tets[t]) {
       if ((sieve >> (v % 64) & 1) == 0) return false;
@@ -157,8 +157,9 @@ void HexSearch::collect_tets(RoughHex& hex) {
   if (const auto first = std::ranges::find_if(around, is_inside); first != around.end()) tets_.push_back(*first);
   for (std::size_t i = 0; i < tets_.size(); ++i) {
     hex.volume += tet_determinant(mesh_.points, mesh_.tets[tets_[i]]) / 6;
-    for (const std::int32_t beyond : adjacency_.tets_beyond(tets_[i]))
-      if (beyond >= 0 && std::ranges::find(tets_, beyond) == tets_.end() && is_inside(beyond)) tets_.push_back(beyond);
+    for (const TetIndex beyond : adjacency_.tets_beyond(tets_[i]))
+      if (beyond != no_index && std::ranges::find(tets_, beyond) == tets_.end() && is_inside(beyond))
+        tets_.push_back(beyond);
   }
 }
 
@@ -196,7 +197,7 @@ class ChosenPairs {
   tsl::robin_map<std::uint64_t, std::uint64_t, geometry::CellKeyHash> roles_;
 };
 
-std::size_t region_of(const TetMesh& mesh, std::int32_t tet) {
+std::size_t region_of(const TetMesh& mesh, TetIndex tet) {
   return mesh.tet_tags.empty() ? 0 : static_cast<std::size_t>(mesh.tet_tags[tet]);
 }
 
@@ -210,9 +211,9 @@ void choose_greedily(const TetMesh& mesh, std::span<const RoughHex> hexes, std::
   for (const std::int32_t i : order) {
     const RoughHex& hex = hexes[i];
     const std::size_t region = region_of(mesh, hex.tets.front());
-    const auto is_lost = [&](std::int32_t t) { return taken[t] || region_of(mesh, t) != region; };
+    const auto is_lost = [&](TetIndex t) { return taken[t] || region_of(mesh, t) != region; };
     if (std::ranges::any_of(hex.tets, is_lost) || !pairs.add(hex)) continue;
-    for (const std::int32_t t : hex.tets) taken[t] = true;
+    for (const TetIndex t : hex.tets) taken[t] = true;
     volumes[region] += hex.volume;
   }
 }
@@ -238,7 +239,7 @@ HexEstimate estimate_hexes(const TetMesh& mesh, const TetAdjacency& adjacency) {
       },
       [&](std::vector<RoughHex>&& found) { std::ranges::move(found, std::back_inserter(hexes)); });
   HexEstimate estimate;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t) {
+  for (const auto t : indices<TetIndex>(mesh.tets.size())) {
     const std::size_t region = region_of(mesh, t);
     if (region >= estimate.volumes.size()) estimate.volumes.resize(region + 1);
     estimate.volumes[region] += tet_determinant(mesh.points, mesh.tets[t]) / 6;
