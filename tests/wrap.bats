@@ -14,7 +14,8 @@ edges = collections.Counter((t[i], t[(i + 1) % 3]) for t in triangles for i in r
 closed = all(count == 1 and edges[(b, a)] == 1 for (a, b), count in edges.items())
 p = points[triangles]
 volume = np.linalg.det(p).sum() / 6
-print(closed, round(float(volume), 3), *np.round(points.min(axis=0), 3), *np.round(points.max(axis=0), 3))
+# 0.0 is added because -0.0 is printed otherwise.
+print(closed, round(float(volume), 3), *(np.round(points.min(axis=0), 3) + 0.0), *(np.round(points.max(axis=0), 3) + 0.0))
 PYTHON
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <unordered_map>
 
 #include "tools/wrap/restoring_steps.hpp"
+#include "tools/wrap/sharp_points.hpp"
 #include "tools/wrap/shrink_wrap.hpp"
 
 namespace hexpipe::wrap {
@@ -25,73 +25,13 @@ bool keeps_its_side(const Vec3& before, const Vec3& after) {
   return new_area >= least_share_of_area * old_area && dot(before, after) >= least_cosine * old_area * new_area;
 }
 
-// The point of three planes, or nothing where they are nearly parallel.
-std::optional<Vec3> meeting_point(const std::array<Plane, 3>& planes) {
-  const Vec3 &n0 = planes[0].normal, &n1 = planes[1].normal, &n2 = planes[2].normal;
-  const double volume = det(n0, n1, n2);
-  if (std::abs(volume) < 1e-3) return std::nullopt;
-  const auto height = [&](int i) { return dot(planes[i].normal, planes[i].point); };
-  return (1 / volume) * (height(0) * cross(n1, n2) + height(1) * cross(n2, n0) + height(2) * cross(n0, n1));
-}
-
-// Where the planes of a triangle's corners meet, as in extended marching cubes (L. Kobbelt, M. Botsch, U. Schwanecke,
-// H.-P. Seidel: Feature sensitive surface extraction from volume data, 2001): two planes leave a line, on which the
-// point nearest to `middle` is taken.
-class SharpPointFinder {
- public:
-  SharpPointFinder(const TriangleTree& input, double feature_angle)
-      : input_(input), sharp_cosine_(std::cos(feature_angle * std::numbers::pi / 180)) {}
-
-  std::optional<Vec3> find(const std::array<Vec3, 3>& corners, const std::array<Plane, 3>& planes) const {
-    const auto [i, j] = most_different(planes);
-    if (dot(planes[i].normal, planes[j].normal) > sharp_cosine_) return std::nullopt;
-    const Vec3 middle = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
-    const double size =
-        std::sqrt(std::max({norm_squared(corners[1] - corners[0]), norm_squared(corners[2] - corners[1]),
-                            norm_squared(corners[0] - corners[2])}));
-    std::array<Plane, 3> meeting{planes[i], planes[j], planes[3 - i - j]};
-    const Vec3 along = unit(cross(meeting[0].normal, meeting[1].normal));
-    const bool corner = std::abs(dot(along, meeting[2].normal)) > corner_cosine;
-    if (!corner) meeting[2] = {middle, along};
-    auto point = meeting_point(meeting);
-    // Where faces are curved the planes of their triangles near the point say it better than those of the corners.
-    for (int round = 0; round < 3 && point && norm(*point - middle) < 1.5 * size; ++round) {
-      for (int k = 0; k < (corner ? 3 : 2); ++k)
-        meeting[k] = input_.facing_plane(*point, meeting[k].normal, 0.1 * size);
-      if (!corner) meeting[2].normal = unit(cross(meeting[0].normal, meeting[1].normal));
-      point = meeting_point(meeting);
-    }
-    if (!point || !(norm(*point - middle) < 1.5 * size)) return std::nullopt;
-    if (dot(meeting[0].normal, meeting[1].normal) > sharp_cosine_) return std::nullopt;
-    const Vec3 on_input = input_.nearest(*point).point;
-    if (norm(on_input - *point) > 1e-3 * size) return std::nullopt;
-    return on_input;
-  }
-
- private:
-  // The third plane is another one than the first two from about 45 degrees on.
-  static constexpr double corner_cosine = 0.7;
-
-  static std::array<std::size_t, 2> most_different(const std::array<Plane, 3>& planes) {
-    std::array<std::size_t, 2> pair{0, 1};
-    double least = 2;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = i + 1; j < 3; ++j)
-        if (const double cosine = dot(planes[i].normal, planes[j].normal); cosine < least)
-          least = cosine, pair = {i, j};
-    return pair;
-  }
-
-  const TriangleTree& input_;
-  double sharp_cosine_;
-};
-
 class Restorer {
  public:
   Restorer(const Surface& wrapped, const TriangleTree& input, const RestoreOptions& options)
       : wrapped_(wrapped),
         input_(input),
         reach_(options.reach),
+        feature_angle_(options.feature_angle),
         sharp_points_(wrapped.triangles.size()),
         moves_(wrapped.points.size()),
         targets_(wrapped.points) {
@@ -107,7 +47,7 @@ class Restorer {
       planes_.push_back({targets_[v], input.facing_plane(targets_[v], unit(normals[v]), 1e-6 * options.reach).normal});
     }
     keep_sides();
-    find_sharp_points(options.feature_angle);
+    find_sharp_points();
   }
 
   RestoredSurface run() {
@@ -149,8 +89,8 @@ class Restorer {
         if (!moves_[v]) sharp_points_[t].reset();
   }
 
-  void find_sharp_points(double feature_angle) {
-    const SharpPointFinder finder(input_, feature_angle);
+  void find_sharp_points() {
+    const SharpPointFinder finder(input_, feature_angle_);
     for (std::size_t t = 0; t < wrapped_.triangles.size(); ++t) {
       const Triangle& triangle = wrapped_.triangles[t];
       if (std::all_of(triangle.begin(), triangle.end(), [&](Vertex v) { return moves_[v]; }))
@@ -163,24 +103,33 @@ class Restorer {
   // its way. Sharp points that fall onto points of the wrap, or onto its edges, leave triangles of almost no area.
   // Where these are gone, more points find room.
   void tidy_up() {
-    std::vector<char> is_stray(result_.surface.points.size()), spans_gap(result_.surface.points.size());
+    std::vector<char> is_stray(result_.surface.points.size());
     std::vector<Vec3> targets = result_.surface.points;
     for (std::size_t v = 0; v < wrapped_.points.size(); ++v) {
-      spans_gap[v] = norm(targets_[v] - wrapped_.points[v]) > reach_;
-      is_stray[v] = !moves_[v] && !spans_gap[v];
+      const bool spans_gap = norm(targets_[v] - wrapped_.points[v]) > reach_;
+      is_stray[v] = !moves_[v] && !spans_gap;
       targets[v] = targets_[v];
     }
+    const double shortest = 0.03 * reach_;
     for (int round = 0; round < 2; ++round) {
+      mend_cut_edges(result_.surface, input_, {feature_angle_, 0.003 * reach_, 0.2 * reach_, shortest});
+      const std::size_t count = result_.surface.points.size();
+      for (std::size_t v = targets.size(); v < count; ++v) targets.push_back(result_.surface.points[v]);
+      owner_of_point_.resize(count, no_index);
+      is_stray.resize(count);
+      for (std::size_t v = 0; v < count; ++v) is_stray[v] = is_stray[v] && !is_on_input(v);
       settle_strays(result_.surface, is_stray, targets, input_);
       flip_what_cuts_edges();
-      result_.slivers = remove_slivers(result_.surface, input_, {0.03 * reach_, 0.05 * reach_});
+      result_.slivers = remove_slivers(result_.surface, input_, {shortest, 0.05 * reach_});
     }
     std::vector<char> is_used(result_.surface.points.size());
     for (const Triangle& t : result_.surface.triangles)
       for (const Vertex v : t) is_used[v] = true;
     for (std::size_t v = 0; v < is_used.size(); ++v)
-      if (is_used[v]) ++(spans_gap[v] || is_stray[v] ? result_.points_off_input : result_.points_on_input);
+      if (is_used[v]) ++(is_on_input(v) ? result_.points_on_input : result_.points_off_input);
   }
+
+  bool is_on_input(std::size_t v) const { return input_.distance(result_.surface.points[v]) <= 1e-6 * reach_; }
 
   void leave_out_unused_points() {
     auto& [points, triangles] = result_.surface;
@@ -295,7 +244,7 @@ class Restorer {
 
   const Surface& wrapped_;
   const TriangleTree& input_;
-  double reach_;
+  double reach_, feature_angle_;
   std::vector<std::optional<Vec3>> sharp_points_;  // of each triangle of the wrap
   std::vector<char> moves_;                        // each point of the wrap: to its target
   std::vector<Vec3> targets_;

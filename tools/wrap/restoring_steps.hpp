@@ -17,6 +17,18 @@ namespace hexpipe::wrap {
 void settle_strays(Surface& surface, std::vector<char>& is_stray, const std::vector<Vec3>& targets,
                    const TriangleTree& input);
 
+struct CutLimits {
+  double feature_angle;  // degrees; edges that turn by more are sharp
+  double off;            // a middle of a triangle or an edge farther from the input than this cuts something
+  double reach;          // triangles with a point farther from the input than this are left as they are
+  double shortest_edge;  // none is made that is shorter
+};
+
+// Where triangles between points of the input cut its sharp edges or corners, points go or are added there, edges flip,
+// and points merge, whatever brings the surface nearest to the input. Points that merged are in no triangle afterwards.
+// The surface must be closed and not cross itself.
+void mend_cut_edges(Surface& surface, const TriangleTree& input, const CutLimits& limits);
+
 // Limits for slivers, folds and very short edges.
 struct SliverLimits {
   double shortest_edge;

@@ -35,6 +35,9 @@ class TriangleTree {
   NearestPoint nearest(const Vec3& from) const;
   double distance(const Vec3& from) const { return norm(nearest(from).point - from); }
 
+  // The plane of the nearest triangle. The normal is turned to the side of `towards`.
+  Plane nearest_plane(const Vec3& from, const Vec3& towards) const;
+
   // The plane of a triangle near `at`: its box comes nearer than `reach` along each axis. Among several, which are
   // equally near at a sharp edge, it is the triangle that faces `towards` most. The normal is turned to the side of
   // `towards`. Without such a triangle, the plane through `at` across `towards`.

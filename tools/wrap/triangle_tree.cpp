@@ -63,6 +63,13 @@ NearestPoint TriangleTree::nearest(const Vec3& from) const {
   return {from_cgal(point), tree_->numbers[place - tree_->triangles.cbegin()]};
 }
 
+Plane TriangleTree::nearest_plane(const Vec3& from, const Vec3& towards) const {
+  const auto [point, place] = tree_->boxes.closest_point_and_primitive(to_cgal(from));
+  const Vec3 a = from_cgal(place->vertex(0));
+  const Vec3 normal = unit(cross(from_cgal(place->vertex(1)) - a, from_cgal(place->vertex(2)) - a));
+  return {from_cgal(point), dot(normal, towards) < 0 ? -1.0 * normal : normal};
+}
+
 Plane TriangleTree::facing_plane(const Vec3& at, const Vec3& towards, double reach) const {
   const Vec3 far{reach, reach, reach};
   std::vector<Triangles::const_iterator> around;
