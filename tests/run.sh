@@ -8,8 +8,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 logs=$(mktemp -d)
 jobs=$(nproc)
-# Many tests wait: for signals, for a stalled input, for a time limit.
-tests_at_once=$((2 * jobs))
+# Many tests wait: for signals, for a stalled input, for a time limit. With two for each processor a quarter of the time
+# was left.
+tests_at_once=$((3 * jobs))
 
 sanitized_build=  # a process group
 trap 'if [[ -n $sanitized_build ]]; then kill -- "-$sanitized_build" 2>/dev/null || true; fi; rm -rf "$logs"' EXIT
