@@ -26,7 +26,7 @@ std::vector<QuadOfCandidate> quads_of(const Candidates& candidates) {
     with_topology(candidates.kind[i], [&](auto topology) {
       const auto& corners = candidates.vertices[i];
       for (const auto& [a, b, c, d] : topology.quads)
-        all.push_back({key_of<4>({corners[a], corners[b], corners[c], corners[d]}), static_cast<CandidateIndex>(i)});
+        all.push_back({key_of<4>({corners[a], corners[b], corners[c], corners[d]}), CandidateIndex(i)});
     });
   std::ranges::sort(all);
   // A candidate of a file may be no cell, and have a quad twice.

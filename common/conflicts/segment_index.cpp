@@ -95,7 +95,7 @@ SegmentIndex::Filed SegmentIndex::file(const Candidates& candidates, std::size_t
   resize_in_huge_pages(filed.candidates, static_cast<std::size_t>(filed.offsets.back()));
   std::vector<std::int64_t> next(filed.offsets.begin(), filed.offsets.end() - 1);
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    for (const Vertex v : candidates.corners_of(i)) filed.candidates[next[v]++] = static_cast<CandidateIndex>(i);
+    for (const Vertex v : candidates.corners_of(i)) filed.candidates[next[v]++] = CandidateIndex(i);
   return filed;
 }
 

@@ -18,7 +18,7 @@ class SharingIndex {
  public:
   // The key in the high bits, the candidate in the low bits.
   using Entry = std::uint64_t;
-  static CandidateIndex candidate_of(Entry entry) { return static_cast<CandidateIndex>(entry); }
+  static CandidateIndex candidate_of(Entry entry) { return CandidateIndex(entry); }
 
   // things_of(candidate, visit) calls visit(bucket, key) for each thing of a candidate; each call gives the same
   // things.

@@ -37,7 +37,7 @@ CliqueCover cliques_of_tets(const Candidates& candidates) {
   std::vector<std::int64_t> next(offsets.begin(), offsets.end() - 1);
   for (std::size_t i = 0; i < candidates.size(); ++i)
     for (std::int64_t t = candidates.tet_offsets[i]; t < candidates.tet_offsets[i + 1]; ++t)
-      members[next[tets[t]]++] = static_cast<CandidateIndex>(i);
+      members[next[tets[t]]++] = CandidateIndex(i);
   for (std::size_t tet = 0; tet + 1 < offsets.size(); ++tet)
     if (offsets[tet + 1] - offsets[tet] > 1)
       cover.add({members.begin() + offsets[tet], members.begin() + offsets[tet + 1]});

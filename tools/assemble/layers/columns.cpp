@@ -109,7 +109,7 @@ class LevelVertices {
       first_.push_back(static_cast<Vertex>(mesh.points.size()));
       if (line.tip == no_index) continue;
       for (int level = 1; level < line.layers; ++level) {
-        mesh.points.push_back(places.at(mesh.points, {static_cast<LineIndex>(i), level}));
+        mesh.points.push_back(places.at(mesh.points, {LineIndex(i), level}));
         origin.push_back(origin[line.foot]);
       }
     }

@@ -129,7 +129,7 @@ class DrawBack {
         is_stuck_(input.walls.lines().size(), 0) {
     for (std::size_t i = 0; i < lines().size(); ++i) {
       if (lines()[i].tip == no_index) continue;
-      line_of_[lines()[i].tip] = static_cast<LineIndex>(i);
+      line_of_[lines()[i].tip] = LineIndex(i);
       goals_.push_back(
           input.guides.nearest(input.plan.freedoms[i].tags, mesh.points[lines()[i].foot] + input.plan.reach[i]));
     }
@@ -362,7 +362,7 @@ void DrawBack::step() {
 std::vector<LineIndex> DrawBack::holding_lines() const {
   std::vector<LineIndex> stuck, result;
   for (std::size_t i = 0; i < lines().size(); ++i)
-    if (is_stuck_[i] != 0) stuck.push_back(static_cast<LineIndex>(i));
+    if (is_stuck_[i] != 0) stuck.push_back(LineIndex(i));
   std::ranges::copy_if(stuck, std::back_inserter(result),
                        [&](LineIndex line) { return !lines()[line].guides.empty(); });
   return result.empty() ? stuck : result;

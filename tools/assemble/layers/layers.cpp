@@ -132,8 +132,7 @@ std::vector<LineIndex> LayerBuilder::too_low(const Layered& layered, const LineP
     const Line& line = layered.walls.lines()[i];
     if (line.tip == no_index) continue;
     const double length = norm(layered.mesh.points[line.tip] - layered.mesh.points[line.foot]);
-    if (places.lowest_share(line.layers) * length < least_height * surface_.diagonal())
-      result.push_back(static_cast<LineIndex>(i));
+    if (places.lowest_share(line.layers) * length < least_height * surface_.diagonal()) result.push_back(LineIndex(i));
   }
   return result;
 }

@@ -175,7 +175,7 @@ void Planner::limit_by_room() {
 void Planner::grade() {
   std::vector<LineIndex> queue;
   for (std::size_t i = 0; i < count(); ++i)
-    if (grows_[i] != 0) queue.push_back(static_cast<LineIndex>(i));
+    if (grows_[i] != 0) queue.push_back(LineIndex(i));
   std::ranges::sort(queue,
                     [&](LineIndex a, LineIndex b) { return std::tie(heights_[a], a) < std::tie(heights_[b], b); });
   // Sweeps from the lowest up; what falls is looked at again.
@@ -206,9 +206,9 @@ void Planner::lean() {
       if (grows_[i] == 0 || !is_smooth || freedom.kind == GuideFreedom::Kind::curve) continue;
       Vec3 mean{};
       double edge = 0, lines = 0;
-      for (const LineIndex other : neighbours_.at(static_cast<LineIndex>(i))) {
+      for (const LineIndex other : neighbours_.at(LineIndex(i))) {
         mean += reach_[other];
-        edge += norm(foot(other) - foot(static_cast<LineIndex>(i)));
+        edge += norm(foot(other) - foot(LineIndex(i)));
         ++lines;
       }
       const Vec3& up = sights_[i].direction;

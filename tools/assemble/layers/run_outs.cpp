@@ -51,7 +51,7 @@ std::vector<RunOut> find_run_outs(const Walls& walls) {
   std::vector<Wishes> wishes;
   for (std::size_t i = 0; i < walls.lines().size(); ++i) {
     wishes.push_back(wishes_of(walls.lines()[i]));
-    for (const Guide& guide : walls.lines()[i].guides) facets[guide.facet].lines.push_back(static_cast<LineIndex>(i));
+    for (const Guide& guide : walls.lines()[i].guides) facets[guide.facet].lines.push_back(LineIndex(i));
   }
   const auto layers_of = [&](LineIndex line) { return walls.lines()[line].layers; };
   const auto asks_for = [&](LineIndex line, const FacetVertices& facet) {

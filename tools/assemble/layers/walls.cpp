@@ -245,7 +245,7 @@ void WallFinder::add_side(const NearFacet& facet, const TaggedFacet& tagged) {
   for (int i = 0; i < side.size(); ++i) {
     LineIndex& line = line_of_wedge_[sets_.of(cell.wedge_at(side.corners[i]))];
     if (line == no_index) {
-      line = static_cast<LineIndex>(lines.size());
+      line = LineIndex(lines.size());
       lines.emplace_back().foot = side.corners[i];
     }
     side.lines[i] = line;
