@@ -1,7 +1,7 @@
-# hexpipe in a container, built by the script that builds it elsewhere.
+# hexpipe in a container, built by the script that builds it elsewhere. The slim image leaves out man pages and documentation.
 #
 #   docker build -t hexpipe .
-#   docker run --rm -v "$PWD:/work" hexpipe hexpipe bracket.stl --size 3 -o bracket.msh
+#   docker run --rm -u "$(id -u):$(id -g)" -v "$PWD:/work" hexpipe hexpipe bracket.stl --size 3 -o bracket.msh
 FROM debian:12 AS build
 WORKDIR /hexpipe
 COPY . .

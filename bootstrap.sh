@@ -24,7 +24,7 @@ test_packages=(
   python3 python3-numpy python3-meshio python3-vtk9 gmsh coinor-cbc zstd procps
   python3-getfem calculix-ccx python3-scipy python3-matplotlib
   netcdf-bin python3-netcdf4 python3-h5py libmed-tools cgns-convert
-  chromium chromium-driver python3-selenium gnuplot-nox man-db
+  chromium chromium-driver python3-selenium gnuplot-nox man-db dpkg-dev file
 )
 # Compiles the tests under sanitizers. Debian 13 has no clang 16; with clang 19 the CGAL of Debian 12 does not compile.
 clang_packages() {

@@ -114,6 +114,16 @@ setup_file() {
   assert [ ! -e x.vtu ]
 }
 
+# So it is where tetmesh is not installed, which is a package of its own.
+@test "a tool that is not there is named, with the places where it was looked for" {
+  mkdir alone
+  cp "$HEXPIPE_BIN/hexpipe" alone
+  run env PATH=/nowhere "$PWD/alone/hexpipe" "$DATA/bracket.stl" -o x.vtu
+  assert_failure 1
+  assert_output "hexpipe: tetmesh: cannot start: it is neither beside hexpipe nor on the PATH"
+  assert [ ! -e x.vtu ]
+}
+
 @test "a stage that cannot be kept leaves no file that --from would take for whole" {
   printf 'solid nothing\nendsolid nothing\n' >empty.stl
   run hexpipe empty.stl -o x.vtu --keep stages

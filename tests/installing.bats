@@ -46,6 +46,23 @@ bare_system() {
   grep -q '^COPY --from=build /hexpipe/build/\*.deb' "$HEXPIPE_SOURCE/Dockerfile"
 }
 
+@test "cpack stops where it would make packages without dependencies" {
+  local cmake missing script="$HEXPIPE_SOURCE/cmake/DebianTools.cmake"
+  cmake=$(command -v cmake)
+  mkdir programs
+  for missing in dpkg-shlibdeps file; do
+    printf '#!/bin/sh\n' | tee programs/dpkg-shlibdeps >programs/file
+    chmod +x programs/*
+    PATH="$PWD/programs" "$cmake" -DCPACK_GENERATOR=DEB -P "$script"
+    rm "programs/$missing"
+    PATH="$PWD/programs" run "$cmake" -DCPACK_GENERATOR=DEB -P "$script"
+    assert_failure
+    assert_output --partial "dpkg-dev file"
+    PATH="$PWD/programs" "$cmake" -DCPACK_GENERATOR=TGZ -P "$script"
+  done
+  grep -q "CPACK_PRE_BUILD_SCRIPTS.*/DebianTools.cmake" "$HEXPIPE_SOURCE/cmake/Packages.cmake"
+}
+
 # install COMPONENT: to the folder usr.
 install() {
   cmake --install "$HEXPIPE_BIN/.." --component "$1" --prefix "$PWD/usr" >/dev/null
@@ -53,7 +70,7 @@ install() {
 
 setup() {
   mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return 1
-  [[ -e "$HEXPIPE_BIN/../cmake_install.cmake" || $BATS_TEST_NUMBER -le 3 ]] || skip "not in a directory of cmake"
+  [[ -e "$HEXPIPE_BIN/../cmake_install.cmake" || $BATS_TEST_NUMBER -le 4 ]] || skip "not in a directory of cmake"
 }
 
 @test "the installed Makefile.examples meshes the installed bracket" {
@@ -86,6 +103,8 @@ setup() {
 
 @test "every package has a file copyright in Debian's format" {
   local component components="hexpipe"
+  [[ ! -x "$HEXPIPE_BIN/wrap" ]] || components+=" hexpipe-wrap"
+  [[ ! -e "$HEXPIPE_BIN/../lib/hexpipe" ]] || components+=" hexpipe-formats"
   [[ ! -x "$HEXPIPE_BIN/tetmesh" ]] || components+=" hexpipe-tetmesh"
   [[ ! -x "$HEXPIPE_BIN/tessellate" ]] || components+=" hexpipe-cad"
   [[ ! -x "$HEXPIPE_BIN/lns-mpi" ]] || components+=" hexpipe-mpi"
@@ -99,4 +118,19 @@ setup() {
     run grep -nE '^ *$' "usr/share/doc/$component/copyright"
     assert_equal "${#lines[@]}" 2
   done
+}
+
+@test "a package says in its first line what it is, and depends on the programs that it starts" {
+  command -v dpkg-shlibdeps >/dev/null && command -v file >/dev/null || skip "dpkg-dev or file is not there"
+  [[ -x "$HEXPIPE_BIN/lns-mpi" ]] || skip "lns-mpi is not built"
+  local work=$PWD package
+  (cd "$HEXPIPE_BIN/.." && cpack -G DEB -B "$work/packages" -D CPACK_COMPONENTS_ALL=hexpipe-mpi >/dev/null)
+  package=$(echo packages/hexpipe-mpi_*.deb)
+  run dpkg-deb -f "$package" Description
+  assert_line --index 0 "The search of hexpipe on many machines"
+  # A line with a second blank would be shown as it is, not as text.
+  assert_line --index 1 --regexp '^ [A-Z]'
+  run dpkg-deb -f "$package" Depends
+  assert_output --partial "openmpi-bin"
+  assert_output --partial "libstdc++6"
 }

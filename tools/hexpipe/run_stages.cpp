@@ -98,7 +98,8 @@ std::vector<char*> arguments(std::vector<std::string>& words) {
   if (out >= 0) dup2(out, STDOUT_FILENO);
   dup2(messages, STDERR_FILENO);
   execvp(path.c_str(), words.data());
-  dprintf(STDERR_FILENO, "cannot start: %s\n", std::strerror(errno));
+  const char* reason = errno == ENOENT ? "it is neither beside hexpipe nor on the PATH" : std::strerror(errno);
+  dprintf(STDERR_FILENO, "cannot start: %s\n", reason);
   _exit(cannot_start);
 }
 
