@@ -91,7 +91,8 @@ TEST(TetCliques, AreTheCandidatesOfEachTet) {
   const CliqueCover cliques = cliques_of_tets(candidates);
   EXPECT_THAT(cliques.offsets, ElementsAre(0, 3, 5, 7));
   EXPECT_THAT(cliques.members, ElementsAre(0, 1, 2, 1, 3, 2, 3));
-  for (TetIndex& tet : candidates.tets) tet = TetIndex(tet + std::numeric_limits<std::int32_t>::max() - 7);
+  constexpr std::int32_t to_the_last = std::numeric_limits<std::int32_t>::max() - 7;
+  for (TetIndex& tet : candidates.tets) tet = TetIndex(tet + to_the_last);
   EXPECT_EQ(cliques_of_tets(candidates).members, cliques.members) << "numbers that take no memory";
   EXPECT_EQ(cliques_of_tets({}).size(), 0);
 }
