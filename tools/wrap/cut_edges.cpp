@@ -55,11 +55,6 @@ class EdgeMender {
     std::vector<Vertex> touched;  // filled when the step is taken
   };
 
-  struct Shapes {
-    double misfit = 0;  // the area between surface and input, nearly
-    double slimness = 1, shortest = std::numeric_limits<double>::max();
-  };
-
   const std::vector<Step>& take_steps_apart() {
     around_ = triangles_around(surface_);
     touched_.assign(surface_.points.size(), false);
