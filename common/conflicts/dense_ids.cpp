@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/mesh/item_lists.hpp"
+
 namespace hexpipe::conflicts {
 namespace {
 
 // A mesh has a few tets per candidate, or some more if candidates are few; a single candidate may name any number.
 constexpr std::size_t ids_a_candidate = 64, ids_in_any_case = 1 << 20;
-
-template <class Id>
-std::vector<Id> sorted_distinct(std::vector<Id> ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
-}
 
 template <class Id>
 void renumber(Id& id, const std::vector<Id>& distinct) {
@@ -35,8 +30,9 @@ std::optional<Candidates> with_dense_ids(const Candidates& candidates) {
     const auto corners = candidates.corners_of(i);
     vertices.insert(vertices.end(), corners.begin(), corners.end());
   }
-  vertices = sorted_distinct(std::move(vertices));
-  const std::vector<TetIndex> tets = sorted_distinct(candidates.tets);
+  sort_unique(vertices);
+  std::vector<TetIndex> tets = candidates.tets;
+  sort_unique(tets);
   for (auto& row : dense.vertices)
     for (Vertex& v : row)
       if (v != no_index) renumber(v, vertices);

@@ -4,16 +4,10 @@
 #include <span>
 #include <utility>
 
+#include "common/mesh/item_lists.hpp"
+
 namespace hexpipe {
 namespace {
-
-template <class T, class I>
-std::vector<T> select_items(const std::vector<T>& items, const std::vector<I>& chosen) {
-  std::vector<T> selected;
-  selected.reserve(chosen.size());
-  for (const I i : chosen) selected.push_back(items[i]);
-  return selected;
-}
 
 template <class Cell>
 bool has_marked(const Cell& cell, const std::vector<bool>& marked) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/mesh/adjacency.hpp"
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/orientation.hpp"
 #include "common/run/error.hpp"
 #include "formats/pipeline/part_bundle.hpp"
@@ -63,9 +64,7 @@ Before read_round_before(const MeshPart& part, const std::vector<std::string>& p
     before.said.moved_tets.push_back(tet);
     before.said.moved_to.push_back(to);
   }
-  auto& list = before.said.given_back;
-  std::ranges::sort(list);
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  sort_unique(before.said.given_back);
   return before;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/mesh/face_view.hpp"
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/run/error.hpp"
@@ -57,11 +58,6 @@ bool is_worse(const hybrid::HybridMesh& mesh, CellKind kind, std::span<const Ver
 bool looks_inverted(const hybrid::HybridMesh& mesh, const hybrid::HybridCell& cell) {
   const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
   return hexpipe::looks_inverted(cell.kind, mesh.points, corners);
-}
-
-void sort_unique(std::vector<CandidateIndex>& candidates) {
-  std::ranges::sort(candidates);
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
 }
 
 // Candidates whose cells are in the mesh, or went back to their tets.

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/submesh.hpp"
 
 namespace hexpipe::mesh_part {
@@ -15,19 +16,6 @@ constexpr int edges_between_conflicts = 6;
 bool has_vertices(const Tet& tet, const Triangle& triangle) {
   return std::all_of(triangle.begin(), triangle.end(),
                      [&](Vertex v) { return std::find(tet.begin(), tet.end(), v) != tet.end(); });
-}
-
-void sort_unique(std::vector<std::int32_t>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
-
-template <class T, class I>
-std::vector<T> select(const std::vector<T>& items, const std::vector<I>& chosen) {
-  std::vector<T> selected;
-  selected.reserve(chosen.size());
-  for (const I i : chosen) selected.push_back(items[i]);
-  return selected;
 }
 
 }  // namespace
@@ -130,9 +118,9 @@ PartOfMesh MeshCutter::cut(std::int32_t part, const MeshFingerprint& whole, cons
   about.point_number.assign(cut.points.begin(), cut.points.end());
   about.tet_number.assign(cut.tets.begin(), cut.tets.end());
   about.triangle_number.assign(cut.triangles.begin(), cut.triangles.end());
-  about.point_part = select(partition_.point_part, cut.points);
-  about.tet_part = select(partition_.tet_part, cut.tets);
-  if (!turns.empty()) about.tet_turned = select(turns, cut.tets);
+  about.point_part = select_items(partition_.point_part, cut.points);
+  about.tet_part = select_items(partition_.tet_part, cut.tets);
+  if (!turns.empty()) about.tet_turned = select_items(turns, cut.tets);
   for (const std::int32_t point : points_within(part, edges_between_conflicts))
     if (partition_.point_part[point] != part) about.neighbours.push_back(partition_.point_part[point]);
   sort_unique(about.neighbours);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/mesh/item_lists.hpp"
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/patch.hpp"
@@ -83,8 +84,7 @@ bool Mender::raise_around(GapIndex c) {
         if (gap_.is_inside(w)) all.push_back(w);
   }
   if (raise(own)) return true;
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort_unique(all);
   return raise(all);
 }
 

@@ -12,6 +12,7 @@
 #include <queue>
 #include <vector>
 
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/quality.hpp"
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
@@ -90,8 +91,7 @@ class StarMerger {
 void StarMerger::collect_cells(Vertex a, Vertex b) {
   cells_.clear();
   for (const Vertex v : {a, b}) cells_.insert(cells_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
-  std::ranges::sort(cells_);
-  cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+  sort_unique(cells_);
 }
 
 // Free vertices of the cells at v and of those behind their facets.
@@ -112,8 +112,7 @@ std::vector<Vertex> StarMerger::partners_of(Vertex v) const {
       }
     }
   }
-  std::ranges::sort(partners);
-  partners.erase(std::unique(partners.begin(), partners.end()), partners.end());
+  sort_unique(partners);
   return partners;
 }
 

@@ -14,6 +14,7 @@
 #include <queue>
 #include <vector>
 
+#include "common/mesh/item_lists.hpp"
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/skin.hpp"
@@ -77,10 +78,8 @@ void Merger::collect_goals(Vertex v) {
     list.insert(list.end(), cell.vertices().begin(), cell.vertices().end());
   }
   barred_.push_back(v);
-  for (auto* list : {&goals_, &barred_}) {
-    std::ranges::sort(*list);
-    list->erase(std::unique(list->begin(), list->end()), list->end());
-  }
+  sort_unique(goals_);
+  sort_unique(barred_);
   std::erase_if(goals_, [&](Vertex w) { return std::ranges::binary_search(barred_, w); });
 }
 
@@ -127,8 +126,7 @@ bool Merger::carry_out(const Merge& merge) {
   if (!std::ranges::all_of(in, [&](const GapCell& cell) { return is_valid(gap_, cell); })) return false;
   if (cost_of_faces(gap_, in, out) > cost_of_faces(gap_, out) + merge.gain - least_gain) return false;
   gap_.replace(out, in);
-  std::ranges::sort(touched);
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  sort_unique(touched);
   for (const Vertex v : touched) offer(v);
   return true;
 }

@@ -10,6 +10,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/facet_key.hpp"
+#include "common/mesh/item_lists.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/passes.hpp"
 #include "tools/assemble/gap/patch.hpp"
@@ -162,8 +163,7 @@ std::vector<Vertex> HexOpener::movable(std::span<const Facet> skin) const {
   for (const Facet& facet : skin)
     for (const Vertex v : facet.vertices())
       if (gap_.is_inside(v)) vertices.push_back(v);
-  std::ranges::sort(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 

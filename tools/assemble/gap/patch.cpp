@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/mesh/face_view.hpp"
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "tools/assemble/gap/face_costs.hpp"
@@ -38,10 +39,6 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
     before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
     for (const KeptIndex c : gap_.kept_at(v)) kept.push_back(c);
   }
-  const auto sort_unique = [](auto& list) {
-    std::ranges::sort(list);
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  };
   sort_unique(before_);
   sort_unique(kept);
   for (const GapIndex c : before_)
@@ -58,8 +55,7 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
   }
   for (const Cell& cell : cells_) vertices_.insert(vertices_.end(), cell.vertices().begin(), cell.vertices().end());
   vertices_.insert(vertices_.end(), moving.begin(), moving.end());
-  std::ranges::sort(vertices_);
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  sort_unique(vertices_);
   points_.clear();
   for (const Vertex v : vertices_) points_.push_back(gap_.points()[v]);
   for (const Vertex v : moving) moving_.push_back(local_of(v));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/mesh/item_lists.hpp"
 #include "tools/assemble/gap/objective.hpp"
 
 namespace hexpipe::assemble::gap {
@@ -52,8 +53,7 @@ std::optional<Room> room_of(const GapMesh& gap, std::span<const GapIndex> cells,
   if (blocked || room.skin.size() > most_facets) return std::nullopt;
   for (const Facet& facet : room.skin)
     for (const Vertex v : facet.vertices()) room.vertices.push_back(v);
-  std::ranges::sort(room.vertices);
-  room.vertices.erase(std::unique(room.vertices.begin(), room.vertices.end()), room.vertices.end());
+  sort_unique(room.vertices);
   for (const GapIndex c : cells)
     for (const Vertex v : gap.cell(c).vertices())
       if (!std::ranges::binary_search(room.vertices, v) && !gap.is_free(v)) return std::nullopt;

@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "common/mesh/face_view.hpp"
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/mesh/vertex_items.hpp"
@@ -86,8 +87,7 @@ struct Edges {
         }
       });
     }
-    std::ranges::sort(edges);
-    edges.erase(std::ranges::unique(edges).begin(), edges.end());
+    sort_unique(edges);
     offsets.assign(points + 1, 0);
     for (const auto& edge : edges) ++offsets[edge[0] + 1], ends.push_back(edge[1]);
     for (std::size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/run/progress.hpp"
 #include "tools/assemble/layers/columns.hpp"
@@ -47,8 +48,7 @@ std::vector<std::int32_t> guide_tags(const Walls& walls) {
   std::vector<std::int32_t> tags;
   for (const Line& line : walls.lines())
     for (const Guide& guide : line.guides) tags.push_back(guide.tag);
-  std::ranges::sort(tags);
-  tags.erase(std::ranges::unique(tags).begin(), tags.end());
+  sort_unique(tags);
   return tags;
 }
 

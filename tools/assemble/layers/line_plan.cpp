@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "common/mesh/box_tree.hpp"
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/vertex_items.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 
@@ -49,8 +50,7 @@ class Room {
     std::vector<std::int32_t> wall_tags;
     for (const WallSide& side : walls.sides())
       if (!side.is_run_out) wall_tags.push_back(side.tag);
-    std::ranges::sort(wall_tags);
-    wall_tags.erase(std::ranges::unique(wall_tags).begin(), wall_tags.end());
+    sort_unique(wall_tags);
     const auto add = [&](const Triangle& triangle, std::int32_t tag) {
       triangles_.push_back(triangle);
       tags_.push_back(tag);

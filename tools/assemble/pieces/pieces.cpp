@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/joined_sets.hpp"
 
 namespace hexpipe::assemble::pieces {
@@ -51,8 +52,7 @@ std::vector<std::vector<TetIndex>> groups_of(const std::vector<OpenRing>& rings,
       tets.push_back(t);
       joined.join(t, ring.tets.front());
     }
-  std::ranges::sort(tets);
-  tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
+  sort_unique(tets);
   std::map<std::int32_t, std::vector<TetIndex>> groups;  // by the number of the set
   for (const TetIndex t : tets) groups[joined.of(t)].push_back(t);
   std::vector<std::vector<TetIndex>> result;
