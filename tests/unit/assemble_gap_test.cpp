@@ -555,7 +555,8 @@ struct ConformingScene {
     for (const GapIndex c : cells) sum += cost_of(gap.cell(c).quality);
     return sum;
   }
-  FewerCells make_fewer(Passes passes) { return make_fewer_cells(hybrid, {tags, input}, {}, passes); }
+  FewerCells make_fewer(Passes passes) { return make_fewer_cells(hybrid, {tags, input}, {}, passes, {}); }
+  double hex_volume() { return hex_volume_of(GapMesh(hybrid, tags, {})); }
 };
 
 TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
@@ -568,7 +569,7 @@ TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
     if (!before.valid) continue;
     constexpr std::array all_passes{Passes::merge, Passes::merge_and_refill, Passes::merge_and_refill, Passes::mend};
     const Passes passes = all_passes[seed % 4];
-    const double cost_before = scene.objective(passes);
+    const double cost_before = scene.objective(passes), hex_volume = scene.hex_volume();
     const auto counts = scene.make_fewer(passes);
     const double cost_after = scene.objective(passes);
     const Census after(scene.hybrid);
@@ -581,8 +582,11 @@ TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
     ASSERT_TRUE(has_tagged_skin(after, scene.tags));
     merged_on_surface += counts.on_surface > 0;
     ASSERT_GE(after.worst, std::min(before.worst, least_quality) - 1e-12);
-    ASSERT_TRUE(opened > 0 || cost_after <= cost_before + 1e-9);
-    ASSERT_TRUE(opened > 0 || cost_after < cost_before || !counts.any());
+    ASSERT_NEAR(counts.hex_volume_lost, hex_volume - scene.hex_volume(), 1e-9);
+    // Hexes grow at the cost of other cells, until they have back what they lost.
+    ASSERT_TRUE(counts.grown == 0 || (passes == Passes::mend && counts.hex_volume_lost > -1e-9));
+    ASSERT_TRUE(opened + counts.grown > 0 || cost_after <= cost_before + 1e-9);
+    ASSERT_TRUE(opened + counts.grown > 0 || cost_after < cost_before || !counts.any());
     const auto hexes = [](const Census& census) {
       const auto found = census.count.find(CellKind::hex);
       return found == census.count.end() ? 0 : found->second;
@@ -627,6 +631,38 @@ TEST(FewerCells, AHexGivesWayWhereACellBesideItStaysPoor) {
     EXPECT_TRUE(has_tagged_skin(after, tags));
     EXPECT_NEAR(after.volume, 8, 1e-12);
   }
+}
+
+TEST(GrowHexes, GrowUntilTheyHaveTheVolumeAskedFor) {
+  constexpr double wanted = 0.03;
+  int meshes = 0, reached = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    ConformingScene scene(seed, Random(seed));
+    GapMesh gap(scene.hybrid, scene.tags, {});
+    if (!gap.is_valid()) continue;
+    std::vector<double> floors;
+    for (const GapIndex c : all_cells(gap)) floors.push_back(std::min(gap.cell(c).quality, 0.2));
+    const double before = hex_volume_of(gap);
+    const std::int64_t moves = grow_hexes(gap, wanted);
+    const double gained = hex_volume_of(gap) - before;
+    EXPECT_EQ(moves > 0, gained > 0);
+    EXPECT_LE(gained, wanted + 1e-12);
+    std::size_t i = 0;
+    for (const GapIndex c : all_cells(gap)) EXPECT_GE(gap.cell(c).quality, floors[i++] - 1e-12);
+    ++meshes, reached += gained >= wanted;
+    gap.write_back();
+    const Census after(scene.hybrid);
+    EXPECT_TRUE(after.valid);
+    EXPECT_NEAR(after.volume, 27, 1e-10);
+  }
+  EXPECT_GT(reached, meshes / 3);
+}
+
+TEST(GrowHexes, LeavesThemWhenNothingIsWanted) {
+  ConformingScene scene(3, Random(3));
+  GapMesh gap(scene.hybrid, scene.tags, {});
+  EXPECT_EQ(grow_hexes(gap, 0), 0);
 }
 
 // assemble checks its results itself: volumes have to add up over a surface that is not flat.

@@ -29,10 +29,11 @@ FewerCells merge_and_refill(GapMesh& gap, const Surface& surface) {
 }  // namespace
 
 FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
-                            Passes passes) {
+                            Passes passes, const FewerCells& so_far) {
   FewerCells counts;
   GapMesh gap(mesh, surface.tags, is_shared);
   if (!gap.is_valid()) return counts;
+  const double hex_volume = hex_volume_of(gap);
   switch (passes) {
     case Passes::merge:
       gap.ignore_faces();
@@ -46,9 +47,12 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
       MendCounts mended = mend(gap, is_shared.empty());
       counts.mended = mended.mended;
       counts.opened = std::move(mended.opened);
+      const double lost = so_far.hex_volume_lost + hex_volume - hex_volume_of(gap);
+      if (lost > 0) counts.grown = grow_hexes(gap, lost);
       break;
     }
   }
+  counts.hex_volume_lost = hex_volume - hex_volume_of(gap);
   if (counts.any()) gap.write_back();
   return counts;
 }

@@ -29,6 +29,24 @@ bool GapCell::has(Vertex v) const {
   return std::ranges::find(vertices(), v) != vertices().end();
 }
 
+double hex_volume_of(const GapMesh& gap) {
+  double volume = 0;
+  for (const auto k : indices<KeptIndex>(gap.kept_count())) {
+    const KeptCell& cell = gap.kept_cell(k);
+    if (cell.is_alive && cell.kind == CellKind::hex)
+      volume += cell_volume(cell.kind, corner_points(gap.points(), cell.vertices()));
+  }
+  return volume;
+}
+
+double shortest_edge_at(const GapMesh& gap, Vertex v) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const GapIndex c : gap.cells_at(v))
+    for (const Vertex w : gap.cell(c).vertices())
+      if (w != v) shortest = std::min(shortest, norm(gap.points()[w] - gap.points()[v]));
+  return shortest;
+}
+
 bool is_valid(const GapMesh& gap, const GapCell& cell) {
   const auto at = corner_points(gap.points(), cell.vertices());
   return hexpipe::is_valid(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()));

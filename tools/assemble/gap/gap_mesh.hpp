@@ -150,6 +150,12 @@ class GapMesh {
   mutable IndexedVector<GapIndex, FaceCost> face_costs_;
 };
 
+// The volume of the chosen hexes.
+double hex_volume_of(const GapMesh& gap);
+
+// Over the cells of the gap at v.
+double shortest_edge_at(const GapMesh& gap, Vertex v);
+
 // Whether the Jacobian of a cell is positive everywhere.
 bool is_valid(const GapMesh& gap, const GapCell& cell);
 

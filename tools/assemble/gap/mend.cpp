@@ -52,7 +52,6 @@ class Mender {
   bool mend(GapIndex c);
   bool raise_around(GapIndex c);
   bool raise(const std::vector<Vertex>& vertices);
-  double shortest_edge_at(Vertex v) const;
   bool step(Vertex v);
 
   GapMesh& gap_;
@@ -88,21 +87,13 @@ bool Mender::raise_around(GapIndex c) {
   return raise(all);
 }
 
-double Mender::shortest_edge_at(Vertex v) const {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const GapIndex c : gap_.cells_at(v))
-    for (const Vertex w : gap_.cell(c).vertices())
-      if (w != v) shortest = std::min(shortest, norm(gap_.points()[w] - gap_.points()[v]));
-  return shortest;
-}
-
 bool Mender::step(Vertex v) {
   stayed_.resize(gap_.vertex_count(), never);
   if (stayed_[v] == gap_.age_of(v)) return false;
   const std::array<Vertex, 1> moving{v};
   patch_.take(moving, {});
   const Vec3 start = gap_.points()[v];
-  const double length = shortest_edge_at(v);
+  const double length = shortest_edge_at(gap_, v);
   double best = patch_.cost_before() - least_gain;
   Vec3 place = start;
   for (const double part : steps) {

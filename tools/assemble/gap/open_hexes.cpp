@@ -1,7 +1,8 @@
 // A poor cell that nothing mends has too few vertices that may move. A new vertex is put into the room of the cell and
 // of cells beside it, with pyramids and tets around it. If that does not help, the cell stands between hexes that may
-// not become worse, and one of them gives way: its room is filled in the same manner. The cells are positive
-// everywhere, and their skin is that of the room, so that they fill it and nothing else (refill.cpp).
+// not become worse, and one of them gives way: its room is filled in the same manner. Where two hexes and the surface
+// hold the cell from all sides, both go, one after the other. The cells are positive everywhere, and their skin is that
+// of the room, so that they fill it and nothing else (refill.cpp).
 
 #include <algorithm>
 #include <array>
@@ -21,9 +22,9 @@ namespace hexpipe::assemble::gap {
 namespace {
 
 // One chosen cell in this many may go, and a few in any case, because each costs a share of the volume in hexes.
-constexpr std::size_t chosen_per_opened = 1000, opened_in_any_case = 4;
+constexpr std::size_t chosen_per_opened = 300, opened_in_any_case = 8;
 // How many chosen cells around a poor one are tried, those with the most vertices of it first. Later ones seldom help.
-constexpr std::size_t most_tries = 8;
+constexpr std::size_t most_tries = 8, most_tries_of_two = 4;
 constexpr int rounds_to_raise = 20;
 
 // Whether each edge is one of two facets: only then do two of the cells around a vertex in the room meet at it.
@@ -41,6 +42,15 @@ bool is_ball(std::span<const Facet> skin) {
   return true;
 }
 
+// What filling a room has changed, so that it can be undone as long as nothing follows.
+struct Filled {
+  std::vector<GapIndex> out;
+  GapIndex first_new = no_index;
+  Vertex middle = no_index;  // the new vertex
+  std::vector<Vertex> moved;
+  std::vector<Vec3> places;  // before
+};
+
 class HexOpener {
  public:
   explicit HexOpener(GapMesh& gap) : gap_(gap), patch_(gap, least_wanted), refill_(gap) {}
@@ -48,24 +58,30 @@ class HexOpener {
   Opened run();
 
  private:
-  std::vector<KeptIndex> chosen_around(const GapCell& poor) const;
+  std::vector<KeptIndex> chosen_around(const GapCell& poor, std::size_t most) const;
   std::optional<std::vector<Facet>> skin_of(KeptIndex kept) const;
   std::vector<std::vector<GapIndex>> rooms_around(GapIndex poor) const;
   std::vector<std::vector<GapIndex>> rooms_beside(std::span<const Facet> skin, GapIndex poor) const;
   std::vector<Vertex> movable(std::span<const Facet> skin) const;
-  bool fill(std::vector<Facet> skin, std::span<const GapIndex> out, GapIndex poor);
-  bool are_good_enough(GapIndex poor, GapIndex first_new) const;
-  bool fill_without_vertex(GapIndex poor);
+  std::optional<Filled> fill(std::vector<Facet> skin, std::span<const GapIndex> out, std::int32_t region);
+  void undo(const Filled& filled);
+  bool are_good_enough(GapIndex first_new) const;
+  bool is_poor(GapIndex c) const { return gap_.is_alive(c) && gap_.cell(c).quality < least_wanted; }
+  bool fill_without_vertex(Vertex middle, GapIndex poor);
+  bool fill_for(GapIndex poor, std::vector<Facet> skin, std::span<const GapIndex> out);
   bool insert(GapIndex poor);
   bool open(KeptIndex kept, GapIndex poor);
+  std::vector<KeptIndex> open_one(GapIndex poor);
+  std::vector<KeptIndex> open_two(GapIndex poor);
+  std::vector<KeptIndex> open_for(GapIndex poor);
 
   GapMesh& gap_;
   Patch patch_;
   Refill refill_;
-  Vertex spare_ = no_index;  // a vertex that a failed try has left
+  std::vector<Vertex> spare_;  // vertices that failed tries have left
 };
 
-std::vector<KeptIndex> HexOpener::chosen_around(const GapCell& poor) const {
+std::vector<KeptIndex> HexOpener::chosen_around(const GapCell& poor, std::size_t most) const {
   std::vector<KeptIndex> all;
   for (const Vertex v : poor.vertices())
     for (const KeptIndex k : gap_.kept_at(v)) all.push_back(k);
@@ -77,7 +93,7 @@ std::vector<KeptIndex> HexOpener::chosen_around(const GapCell& poor) const {
     at = end;
   }
   std::ranges::sort(by_count);
-  if (by_count.size() > most_tries) by_count.resize(most_tries);
+  if (by_count.size() > most) by_count.resize(most);
   std::vector<KeptIndex> result;
   for (const auto& [count, k] : by_count) result.push_back(k);
   return result;
@@ -167,16 +183,15 @@ std::vector<Vertex> HexOpener::movable(std::span<const Facet> skin) const {
   return vertices;
 }
 
-// Whether the new cells are good enough, and the poor one, if it is still there.
-bool HexOpener::are_good_enough(GapIndex poor, GapIndex first_new) const {
+bool HexOpener::are_good_enough(GapIndex first_new) const {
   for (const auto c : indices<GapIndex>(first_new, gap_.cell_count()))
     if (gap_.cell(c).quality < least_wanted || !is_valid(gap_, gap_.cell(c))) return false;
-  return !gap_.is_alive(poor) || gap_.cell(poor).quality >= least_wanted;
+  return true;
 }
 
 // Fills the room of the cells at the new vertex, and of the poor one, with cells that do without that vertex.
-bool HexOpener::fill_without_vertex(GapIndex poor) {
-  std::vector<GapIndex> out(gap_.cells_at(spare_).begin(), gap_.cells_at(spare_).end());
+bool HexOpener::fill_without_vertex(Vertex middle, GapIndex poor) {
+  std::vector<GapIndex> out(gap_.cells_at(middle).begin(), gap_.cells_at(middle).end());
   if (gap_.is_alive(poor)) out.push_back(poor);
   if (!std::ranges::all_of(out, [&](GapIndex c) { return is_valid(gap_, gap_.cell(c)); })) return false;
   const auto in = refill_.find(out);
@@ -187,52 +202,65 @@ bool HexOpener::fill_without_vertex(GapIndex poor) {
   return true;
 }
 
-// Fills the room within `skin` around a vertex in its middle, and moves the vertices around it. If that does not turn
-// out well, with this vertex or without, everything is as before.
-bool HexOpener::fill(std::vector<Facet> skin, std::span<const GapIndex> out, GapIndex poor) {
-  const std::int32_t region = gap_.cell(poor).region;
+// Fills the room within `skin` and of the cells `out` around a vertex in its middle, and moves the vertices around it.
+// If cells that stay become worse than they may, everything is as before. What comes may be poor.
+std::optional<Filled> HexOpener::fill(std::vector<Facet> skin, std::span<const GapIndex> out, std::int32_t region) {
   for (const GapIndex c : out) {
-    if (gap_.cell(c).region != region) return false;
+    if (gap_.cell(c).region != region) return std::nullopt;
     const bool begins = skin.empty();
     const Joining joining = join_skin(gap_, gap_.cell(c), skin);
-    if ((!joining.touches && !begins) || joining.crosses_tagged) return false;
+    if ((!joining.touches && !begins) || joining.crosses_tagged) return std::nullopt;
   }
-  if (!is_ball(skin)) return false;
+  if (!is_ball(skin)) return std::nullopt;
   Vec3 middle{};
   double corners = 0;
   for (const Facet& facet : skin)
     for (const Vertex v : facet.vertices()) middle += gap_.points()[v], ++corners;
   middle *= 1 / corners;
-  if (spare_ == no_index) spare_ = gap_.add_vertex(middle);
-  gap_.move(spare_, middle);
+  if (spare_.empty()) spare_.push_back(gap_.add_vertex(middle));
+  Filled filled{{out.begin(), out.end()}, GapIndex(gap_.cell_count()), spare_.back(), movable(skin), {}};
+  spare_.pop_back();
+  gap_.move(filled.middle, middle);
 
   std::vector<GapCell> in;
-  for (const Facet& facet : skin) in.push_back(cell_on(gap_, facet, spare_, region));
-  const GapIndex first_new(gap_.cell_count());
+  for (const Facet& facet : skin) in.push_back(cell_on(gap_, facet, filled.middle, region));
   gap_.replace(out, in);
 
-  std::vector<Vertex> moving = movable(skin);
-  moving.push_back(spare_);
-  std::vector<Vec3> places;
-  for (const Vertex v : moving) places.push_back(gap_.points()[v]);
-  patch_.take(moving, {});
+  filled.moved.push_back(filled.middle);
+  for (const Vertex v : filled.moved) filled.places.push_back(gap_.points()[v]);
+  patch_.take(filled.moved, {});
   patch_.raise(least_quality, rounds_to_raise);
-  if (patch_.keeps_floors()) {
-    patch_.carry_out(gap_, {});
-    if (are_good_enough(poor, first_new)) {
-      spare_ = no_index;
-      return true;
-    }
-    if (fill_without_vertex(poor)) return true;
-    for (std::size_t i = 0; i < moving.size(); ++i) gap_.relocate(moving[i], places[i]);
+  if (!patch_.keeps_floors()) {
+    gap_.undo_replace(filled.out, filled.first_new);
+    spare_.push_back(filled.middle);
+    return std::nullopt;
   }
-  gap_.undo_replace(out, first_new);
+  patch_.carry_out(gap_, {});
+  return filled;
+}
+
+void HexOpener::undo(const Filled& filled) {
+  for (std::size_t i = 0; i < filled.moved.size(); ++i) gap_.relocate(filled.moved[i], filled.places[i]);
+  gap_.undo_replace(filled.out, filled.first_new);
+  spare_.push_back(filled.middle);
+}
+
+// Fills the room so that neither the new cells nor `poor` are poor, around a vertex or without; or changes nothing.
+bool HexOpener::fill_for(GapIndex poor, std::vector<Facet> skin, std::span<const GapIndex> out) {
+  const auto filled = fill(std::move(skin), out, gap_.cell(poor).region);
+  if (!filled) return false;
+  if (!is_poor(poor) && are_good_enough(filled->first_new)) return true;
+  if (fill_without_vertex(filled->middle, poor)) {
+    spare_.push_back(filled->middle);
+    return true;
+  }
+  undo(*filled);
   return false;
 }
 
 bool HexOpener::insert(GapIndex poor) {
   for (const auto& out : rooms_around(poor))
-    if (fill({}, out, poor)) return true;
+    if (fill_for(poor, {}, out)) return true;
   return false;
 }
 
@@ -242,26 +270,54 @@ bool HexOpener::open(KeptIndex kept, GapIndex poor) {
   if (!skin) return false;
   gap_.set_alive(kept, false);
   for (const auto& out : rooms_beside(*skin, poor))
-    if (fill(*skin, out, poor)) return true;
+    if (fill_for(poor, *skin, out)) return true;
   gap_.set_alive(kept, true);
   return false;
+}
+
+std::vector<KeptIndex> HexOpener::open_one(GapIndex poor) {
+  for (const KeptIndex kept : chosen_around(gap_.cell(poor), most_tries))
+    if (open(kept, poor)) return {kept};
+  return {};
+}
+
+// The room of the first is filled with cells that are good enough, though `poor` stays as it is. Then there is more
+// room beside it, for a vertex or for the second.
+std::vector<KeptIndex> HexOpener::open_two(GapIndex poor) {
+  const std::int32_t region = gap_.cell(poor).region;
+  for (const KeptIndex first : chosen_around(gap_.cell(poor), most_tries_of_two)) {
+    const auto skin = skin_of(first);
+    if (!skin || gap_.kept_cell(first).region != region) continue;
+    gap_.set_alive(first, false);
+    if (const auto filled = fill(*skin, {}, region)) {
+      if (are_good_enough(filled->first_new)) {
+        if (insert(poor)) return {first};
+        for (const KeptIndex second : chosen_around(gap_.cell(poor), most_tries_of_two))
+          if (open(second, poor)) return {first, second};
+      }
+      undo(*filled);
+    }
+    gap_.set_alive(first, true);
+  }
+  return {};
+}
+
+std::vector<KeptIndex> HexOpener::open_for(GapIndex poor) {
+  auto opened = open_one(poor);
+  return opened.empty() ? open_two(poor) : opened;
 }
 
 Opened HexOpener::run() {
   Opened result;
   const std::size_t most = gap_.kept_count() / chosen_per_opened + opened_in_any_case;
   for (const auto c : indices<GapIndex>(gap_.cell_count())) {
-    if (!gap_.is_alive(c) || gap_.cell(c).quality >= least_wanted) continue;
+    if (!is_poor(c)) continue;
     if (insert(c)) {
       ++result.inserted;
       continue;
     }
-    if (result.chosen.size() == most) continue;
-    for (const KeptIndex kept : chosen_around(gap_.cell(c)))
-      if (open(kept, c)) {
-        result.chosen.push_back(gap_.kept_cell(kept).source);
-        break;
-      }
+    if (result.chosen.size() >= most) continue;
+    for (const KeptIndex kept : open_for(c)) result.chosen.push_back(gap_.kept_cell(kept).source);
   }
   return result;
 }

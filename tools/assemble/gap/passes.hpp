@@ -47,6 +47,11 @@ struct Opened {
 // cell falls below least_wanted that was not below before. At most four chosen cells and one more in each thousand go.
 Opened open_hexes(GapMesh& gap);
 
+// Moves inner vertices out of the hexes that they belong to, into the cells of the gap, until the hexes are larger by
+// `volume`, as far as that costs little (objective.hpp). No cell of the gap falls below 0.2 that was not below before.
+// Returns the number of moves.
+std::int64_t grow_hexes(GapMesh& gap, double volume);
+
 struct MendCounts {
   std::int64_t mended = 0;        // changes
   std::vector<CellIndex> opened;  // chosen cells that are gone
