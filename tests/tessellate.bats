@@ -107,8 +107,9 @@ END
   thin wall 9.99
   run --separate-stderr tessellate wall.step --unit mm --deviation 0.5 --angle 30 -o wall.tar --stats stats.json
   assert_success
-  assert_equal "$stderr" "tessellate: warning: wall.step: 276 pairs of triangles crossed each other; none do since triangles were made anew, within 0.5 of the faces"
-  assert_equal "$($PYTHON -c 'import json; print(json.load(open("stats.json"))["crossings"])')" 276
+  assert_regex "$stderr" "^tessellate: warning: wall.step: [0-9]+ pairs of triangles crossed each other; none do since triangles were made anew, within 0.5 of the faces$"
+  # How many there are depends on OpenCASCADE's version.
+  assert_equal "$($PYTHON -c 'import json; print(json.load(open("stats.json"))["crossings"] > 10)')" True
   assert_equal "$(surface wall.tar 'open_edges()')" 0
   run surface wall.tar 'abs(volume() / (math.pi * (10 * 100 - 8 * 9.99**2)) - 1) < 0.01'
   assert_output True
