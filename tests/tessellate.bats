@@ -16,7 +16,7 @@ step() {
 # surface BUNDLE EXPRESSION: of its arrays, by name, and of `names`.
 surface() {
   $PYTHON - "$@" <<'PYTHON'
-import io, json, sys, tarfile
+import io, json, math, sys, tarfile
 import numpy as np
 arrays, names = {}, {}
 with tarfile.open(sys.argv[1]) as bundle:
@@ -89,6 +89,43 @@ PYTHON
   tessellate "$DATA/simp.step" --stats cad.json | tetmesh --stats mesh.json -o mesh.tar
   run $PYTHON -c 'import json; print(abs(json.load(open("mesh.json"))["size"] / json.load(open("cad.json"))["deviation"] / 100 - 1) < 0.01)'
   assert_output True
+}
+
+# thin NAME INNER: NAME.step, a cylinder of the radius 10 with a cylinder of the radius INNER as a hole in it.
+thin() {
+  cat >"$1.geo" <<END
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 10, 10};
+Cylinder(2) = {0, 0, 1, 0, 0, 8, $2};
+Rotate {{0, 0, 1}, {0, 0, 0}, Pi/24} { Volume{2}; }
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+END
+  gmsh -0 "$1.geo" -o "$1.step" >gmsh.log
+}
+
+@test "where triangles of a body cross each other, those of their faces are made anew, finer" {
+  thin wall 9.99
+  run --separate-stderr tessellate wall.step --unit mm --deviation 0.5 --angle 30 -o wall.tar --stats stats.json
+  assert_success
+  assert_regex "$stderr" "^tessellate: warning: wall.step: [0-9]+ pairs of triangles crossed each other; none do since triangles were made anew, within 0.5 of the faces$"
+  # How many there are depends on OpenCASCADE's version.
+  assert_equal "$($PYTHON -c 'import json; print(json.load(open("stats.json"))["crossings"] > 10)')" True
+  assert_equal "$(surface wall.tar 'open_edges()')" 0
+  run surface wall.tar 'abs(volume() / (math.pi * (10 * 100 - 8 * 9.99**2)) - 1) < 0.01'
+  assert_output True
+  if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
+    tetmesh wall.tar --surface keep --points none -o wall.mesh
+  fi
+}
+
+@test "where neither finer nor coarser triangles help, the first ones stay, which is told" {
+  thin film 9.999999
+  run --separate-stderr tessellate film.step --unit mm -o film.tar
+  assert_success
+  assert_regex "$stderr" "^tessellate: warning: film.step: [0-9]+ pairs of triangles cross each other, and so do finer and coarser ones$"
+  if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
+    assert_fails_with 1 "expected a surface that does not intersect itself" tetmesh film.tar -o film.mesh
+  fi
 }
 
 @test "names of faces and bodies are groups, colours and layers where a face has no name" {

@@ -373,7 +373,7 @@ tetmesh: warning: outside.obj: --keep-baffles finds no sheet that ends inside"
     assert_fails_with 1 " \(see --repair\)$" tetmesh --strict $name.stl
     tetmesh -q $name.stl --repair --surface keep --points none -o "$BATS_TEST_TMPDIR/out.tar"
   done
-  assert_fails_with 1 "found [0-9]+ pairs .* \(see --repair\)$" tetmesh "$DATA/readers/folded-sliver.off"
+  assert_fails_with 1 "found [0-9]+ pairs .* \(see --repair\)$" tetmesh --strict "$DATA/readers/folded-sliver.off"
   assert_fails_with 1 "found [0-9]+ pairs .* \(see --unite\)$" tetmesh --repair intersecting.stl
   assert_fails_with 1 "found 3 edges of .*\)$" tetmesh hole.stl --repair --largest-hole 0
   run tetmesh hole.stl --repair --largest-hole 0
@@ -700,6 +700,19 @@ END
   assert_equal "$stderr" "tetmesh: warning: $DATA/readers/folded-sliver.off: repaired: 1 self-intersection mended by 4 triangles made anew"
   assert_conforming folded.mesh
   assert_equal "$(volumes_of folded.mesh | tail -1)" "{1: 1.0}"
+}
+
+@test "triangles that intersect are made anew without --repair where they stay near" {
+  run_apart tetmesh "$DATA/readers/folded-sliver.off" --size 0.3 -o folded.mesh --stats stats.json
+  assert_success
+  assert_equal "$stderr" "tetmesh: warning: $DATA/readers/folded-sliver.off: mended: 1 self-intersection mended by 4 triangles made anew (see --strict)"
+  holds 'stats["repair"]["mended_folds"] == 1' stats.json
+  assert_conforming folded.mesh
+  assert_equal "$(volumes_of folded.mesh | tail -1)" "{1: 1.0}"
+  # More than a hundredth of the size that suits it.
+  sed 's/0.99999/0.998/' "$DATA/readers/folded-sliver.off" >deep.off
+  assert_fails_with 1 "^tetmesh: deep.off:[0-9]+: expected a surface that does not intersect itself, found [0-9]+ pairs .* \(see --repair\)$" tetmesh deep.off
+  tetmesh -q deep.off --repair --size 0.3 -o deep.mesh
 }
 
 @test "--unite makes one body of bodies that overlap" {

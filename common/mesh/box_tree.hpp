@@ -1,5 +1,6 @@
 #pragma once
-// Things in a tree of boxes. It finds the thing with the least value, where values grow with the distance.
+// Things in a tree of boxes. It finds the thing with the least value, where values grow with the distance, and pairs of
+// things whose boxes meet.
 
 #include <algorithm>
 #include <array>
@@ -24,6 +25,10 @@ struct Box {
   void add(const Box& other) {
     low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z)};
     high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z)};
+  }
+  bool meets(const Box& other) const {
+    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
+           low.z <= other.high.z && other.low.z <= high.z;
   }
   double diagonal() const { return norm(high - low); }
   Vec3 centre() const { return 0.5 * (low + high); }
@@ -61,6 +66,31 @@ class BoxTree {
   double first_hit(const Vec3& from, const Vec3& direction, double most, LengthTo&& length_to) const {
     const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
     return search(most, length_to, [&](const Node& node) { return node.box.entry(from, inverse); });
+  }
+
+  // Calls visit(one, other) once for each pair of things whose boxes meet, and for some whose boxes are near each
+  // other. Each thing has one box.
+  template <class Visit>
+  void for_each_near_pair(Visit&& visit) const {
+    std::vector<std::array<std::int32_t, 2>> pending;
+    if (!nodes_.empty()) pending.push_back({0, 0});
+    while (!pending.empty()) {
+      const auto [a, b] = pending.back();
+      pending.pop_back();
+      const Node &one = nodes_[a], &other = nodes_[b];
+      if (a != b && !one.box.meets(other.box)) continue;
+      if (one.count > 0 && other.count > 0) {
+        for (std::int32_t i = one.first; i < one.first + one.count; ++i)
+          for (std::int32_t k = a == b ? i + 1 : other.first; k < other.first + other.count; ++k)
+            visit(things_[i], things_[k]);
+      } else if (a == b) {
+        pending.insert(pending.end(), {{a + 1, a + 1}, {one.first, one.first}, {a + 1, one.first}});
+      } else if (other.count > 0 || (one.count == 0 && one.box.diagonal() > other.box.diagonal())) {
+        pending.insert(pending.end(), {{a + 1, b}, {one.first, b}});
+      } else {
+        pending.insert(pending.end(), {{a, b + 1}, {a, other.first}});
+      }
+    }
   }
 
  private:

@@ -179,36 +179,63 @@ TEST(Repair, FillsHolesAcrossEdgesSoThatNothingIntersects) {
   }
 }
 
-// The edge of a cube is bent inward by less than can be seen, so that its face folds over another one.
+// A cube with an edge in n parts, of which one is bent inward, so that its face folds over another one.
+Facets folded(int n, double depth) {
+  const Vec3 from{0, 1, 1}, to{1.0 / n, 1, 1}, bent{0.5 / n, 1 - depth, 1};
+  const auto has = [](const Facet& facet, const Vec3& p) { return std::ranges::find(facet, p) != facet.end(); };
+  Facets facets;
+  for (const Facet& facet : cube(0, 1, n)) {
+    const bool is_side = facet[0].y == 1 && facet[1].y == 1 && facet[2].y == 1;
+    if (!has(facet, from) || !has(facet, to) || !is_side) {
+      facets.push_back(facet);
+      continue;
+    }
+    for (const Vec3& end : {from, to}) {
+      Facet part = facet;
+      *std::ranges::find(part, end) = bent;
+      facets.push_back(part);
+    }
+    // Between the top and the bent edge.
+    Facet gap = facet;
+    for (Vec3& p : gap)
+      if (p != from && p != to) p = bent;
+    facets.push_back(gap);
+  }
+  return facets;
+}
+
 TEST(Repair, MakesFoldedTrianglesAnew) {
   for (const int n : {1, 3}) {
-    Facets facets = cube(0, 1, n);
-    const Vec3 from{0, 1, 1}, to{1.0 / n, 1, 1}, bent{0.5 / n, 0.99999, 1};
-    const auto has = [](const Facet& facet, const Vec3& p) { return std::ranges::find(facet, p) != facet.end(); };
-    Facets folded;
-    for (const Facet& facet : facets) {
-      const bool is_side = facet[0].y == 1 && facet[1].y == 1 && facet[2].y == 1;
-      if (!has(facet, from) || !has(facet, to) || !is_side) {
-        folded.push_back(facet);
-        continue;
-      }
-      for (const Vec3& end : {from, to}) {
-        Facet part = facet;
-        *std::ranges::find(part, end) = bent;
-        folded.push_back(part);
-      }
-      // Between the top and the bent edge.
-      Facet gap = facet;
-      for (Vec3& p : gap)
-        if (p != from && p != to) p = bent;
-      folded.push_back(gap);
-    }
-    SurfaceSoup soup = soup_of(folded);
+    SurfaceSoup soup = soup_of(folded(n, 1e-5));
     const RepairReport report = repaired(soup);
     EXPECT_EQ(report.mended_folds, 1u) << n;
     EXPECT_NEAR(volume_of(soup), 1, 1e-5) << n;
-    EXPECT_EQ(soup.triangles.size(), facets.size()) << n;
+    EXPECT_EQ(soup.triangles.size(), cube(0, 1, n).size()) << n;
   }
+}
+
+// The size that suits a cube of the side 1 is 0.055: a fold as deep as a hundredth of it is mended at once.
+TEST(Repair, MakesFoldedTrianglesAnewWithoutBeingAskedIfTheyAreNear) {
+  for (const double depth : {1e-5, 5e-4, 1e-3, 3e-3}) {
+    SurfaceSoup soup = soup_of(folded(3, depth));
+    RepairReport report;
+    mend_folds(soup, report);
+    EXPECT_EQ(report.mended_folds, depth < 5.5e-4 ? 1u : 0u) << depth;
+    if (depth < 5.5e-4)
+      EXPECT_NO_THROW(check_surface(soup));
+    else
+      EXPECT_THROW(check_surface(soup), SelfIntersection);
+    EXPECT_EQ(repair(soup, {}).mended_folds, depth < 5.5e-4 ? 0u : 1u) << depth;
+  }
+}
+
+TEST(Repair, LeavesFoldsAcrossTagsUnlessAsked) {
+  SurfaceSoup soup = soup_of(folded(3, 1e-5));
+  for (std::size_t t = 0; t < soup.tags.size(); ++t) soup.tags[t] = static_cast<std::int32_t>(t);
+  RepairReport report;
+  mend_folds(soup, report);
+  EXPECT_EQ(report.mended_folds, 0u);
+  EXPECT_EQ(repair(soup, {}).mended_folds, 1u);
 }
 
 TEST(Repair, LeavesBodiesThatOverlap) {

@@ -4,9 +4,9 @@
 
 #include <numbers>
 
+#include "common/mesh/apart_test.hpp"
 #include "common/run/random.hpp"
 #include "formats/surfaces/surface_soup.hpp"
-#include "tools/tetmesh/geometry/apart_test.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"

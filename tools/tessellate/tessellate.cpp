@@ -31,6 +31,15 @@ void leave_out_sheets(CadModel& model) {
   model.sheets.clear();
 }
 
+std::string text_about(const MadeAnew& made_anew, double deviation) {
+  const bool is_one = made_anew.crossings == 1;
+  const std::string pairs = fmt::format("{} pair{} of triangles", made_anew.crossings, is_one ? "" : "s");
+  return made_anew.helped
+             ? fmt::format("{} crossed each other; none do since triangles were made anew, within {:.4g} of the faces",
+                           pairs, deviation)
+             : fmt::format("{} cross{} each other, and so do finer and coarser ones", pairs, is_one ? "es" : "");
+}
+
 }  // namespace
 
 TessellateResult tessellate(formats::Input& input, const TessellateOptions& options) {
@@ -56,6 +65,8 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
     result.faces = made.faces;
     result.curves = made.curves;
     result.deviation = made.deviation / unit.millimetres;
+    result.crossings = made.made_anew.crossings;
+    if (result.crossings > 0) model.warnings.push_back(text_about(made.made_anew, result.deviation));
   } catch (const Standard_Failure& failure) {
     throw DataError::at(input.name(), "OpenCASCADE failed: {}", message_of(failure));
   }
@@ -77,6 +88,7 @@ nlohmann::ordered_json to_json(const TessellateResult& result) {
                               {"curves", result.curves},
                               {"points", result.surface.points.size()},
                               {"triangles", result.surface.triangles.size()},
+                              {"crossings", result.crossings},
                               {"names", result.surface.names.surfaces.size()}};
   if (!result.unit.empty()) json["unit"] = result.unit;
   return json;

@@ -24,8 +24,9 @@ struct TessellateResult {
   formats::SurfaceSoup surface;
   pipeline::ExactShape shape;
   std::size_t bodies = 0, faces = 0, curves = 0;
-  double deviation = 0;  // in the units that are written
-  std::string unit;      // of the output; empty if the file names none
+  double deviation = 0;       // in the units that are written
+  std::string unit;           // of the output; empty if the file names none
+  std::size_t crossings = 0;  // pairs of triangles that crossed each other at first
   std::vector<std::string> warnings;
 };
 

@@ -17,16 +17,25 @@ struct TriangulationOptions {
   bool keep_baffles = false;             // faces inside stay, with the same body on both sides
 };
 
+// Triangles of one body that crossed each other as OpenCASCADE made them first.
+struct MadeAnew {
+  std::size_t crossings = 0;  // pairs
+  bool helped = false;        // to make triangles anew
+};
+
 struct Triangulation {
   formats::SurfaceSoup surface;  // in the model's units; sides, curves, names
   pipeline::ExactShape shape;    // what it was made of
   std::size_t faces = 0, curves = 0;
   double deviation = 0;
+  MadeAnew made_anew;
 };
 
 // The suitable distance of points for the bodies, as tetmesh chooses it.
 double default_size_of(const CadModel& model);
 
+// Where triangles of one body cross each other, those of their faces are made anew, finer; then all are, or, unless a
+// deviation is asked for, those of these faces coarser. If that does not help, the first triangles stay.
 // Throws DataError if a face cannot be triangulated, or its triangles leave a gap.
 Triangulation triangulate(const CadModel& model, const TriangulationOptions& options, const std::string& source);
 

@@ -187,9 +187,11 @@ int main(int argc, char** argv) {
         "--repair", options.repair,
         "Weld points, remove flat and repeated triangles, turn triangles that disagree with their neighbours, fill "
         "small holes, make triangles anew where few intersect");
-    app.add_flag("!--strict", options.mend,
-                 "Refuse a surface with any fault. Without it, those that change no shape are mended with a warning: "
-                 "triangles without area, copies and strays, points that differ by rounding or lie on an edge")
+    app.add_flag(
+           "!--strict", options.mend,
+           "Refuse a surface with any fault. Without it, those that change no shape are mended with a warning: "
+           "triangles without area, copies and strays, points that differ by rounding or lie on an edge, few triangles "
+           "that intersect")
         ->excludes(repair);
     CLI::Option* const unite = app.add_flag("--unite", options.unite, "Make one body of bodies that overlap");
     app.add_flag("--keep-baffles", keeps_baffles,

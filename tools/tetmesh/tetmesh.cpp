@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -102,7 +103,7 @@ std::size_t unite(formats::SurfaceSoup& soup) {
   const std::size_t united = solid::unite_bodies(soup);
   if (united == 0) return united;
   solid::mend(soup);
-  solid::remove_folds(soup, solid::rounding_of(soup));
+  solid::remove_folds(soup, {.tolerance = solid::rounding_of(soup)});
   return united;
 }
 
@@ -138,7 +139,11 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
                        : keeps_baffles     ? "; a baffle shares whole edges with what it meets"
                        : options.repair    ? " (see wrap)"
                                            : " (see --repair)";
-  solid::Surface tagged = solid::boundary_of(std::move(soup), options.shells, options.baffles, remedy, warnings);
+  std::function<void(formats::SurfaceSoup&)> mend_folds;
+  if (repaired && !options.repair && soup.sides.empty() && !keeps_baffles)
+    mend_folds = [&](formats::SurfaceSoup& given) { solid::mend_folds(given, *repaired); };
+  solid::Surface tagged =
+      solid::boundary_of(std::move(soup), options.shells, options.baffles, remedy, warnings, mend_folds);
   if (options.tag_angle) solid::tag_by_angle(tagged, *options.tag_angle);
   solid::name_tags(tagged, options.tag_names);
   const solid::Surface surface = std::move(tagged);

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "tools/tetmesh/geometry/apart_test.hpp"
+#include "common/mesh/apart_test.hpp"
 
 namespace hexpipe::tetmesh::geometry {
 namespace {

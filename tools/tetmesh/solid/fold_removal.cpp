@@ -38,7 +38,7 @@ double distance_to(const SurfaceSoup& soup, std::span<const Triangle> triangles,
 
 class FoldRemover {
  public:
-  FoldRemover(SurfaceSoup& soup, double tolerance) : soup_(soup), tolerance_(tolerance) {}
+  FoldRemover(SurfaceSoup& soup, const FoldRule& rule) : soup_(soup), rule_(rule) {}
 
   FoldReport remove() {
     for (int round = 0; round < most_rounds && remove_once(); ++round) {
@@ -122,7 +122,7 @@ class FoldRemover {
 
   bool replace(const Patch& patch) {
     const auto border = border_of(patch);
-    if (!border) return false;
+    if (!border || (rule_.keeps_shape && !(is_disk(patch) && has_one_tag(patch)))) return false;
     std::vector<HoleEdge> edges;
     for (const HalfEdge h : *border)
       edges.push_back({.start = geometry::start_of(soup_.triangles, h),
@@ -142,19 +142,41 @@ class FoldRemover {
     return true;
   }
 
-  // The corners of the old triangles, and middles of the new ones and of their edges.
+  // From the corners of the old triangles, and from points of the new ones.
   bool is_near(const Patch& patch, std::span<const Triangle> triangles) const {
     std::vector<Triangle> old;
     for (const std::int32_t t : patch) old.push_back(soup_.triangles[t]);
     for (const Triangle& t : old)
       for (const Vertex v : t)
-        if (distance_to(soup_, triangles, soup_.points[v]) > tolerance_) return false;
+        if (distance_to(soup_, triangles, soup_.points[v]) > rule_.tolerance) return false;
+    const int parts = rule_.keeps_shape ? 8 : 2;
     for (const Triangle& t : triangles) {
       const Vec3 &a = soup_.points[t[0]], &b = soup_.points[t[1]], &c = soup_.points[t[2]];
-      for (const Vec3& p : {(a + b + c) * (1.0 / 3), 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)})
-        if (distance_to(soup_, old, p) > tolerance_) return false;
+      const auto is_far = [&](double u, double v) {
+        return distance_to(soup_, old, a + u * (b - a) + v * (c - a)) > rule_.tolerance;
+      };
+      if (is_far(1.0 / 3, 1.0 / 3)) return false;
+      for (int i = 0; i <= parts; ++i)
+        for (int k = 0; i + k <= parts; ++k)
+          if (is_far(static_cast<double>(i) / parts, static_cast<double>(k) / parts)) return false;
     }
     return true;
+  }
+
+  bool has_one_tag(const Patch& patch) const {
+    return std::ranges::all_of(patch, [&](std::int32_t t) { return soup_.tags[t] == soup_.tags[*patch.begin()]; });
+  }
+
+  // By Euler's number: one more corner than edges less triangles.
+  bool is_disk(const Patch& patch) const {
+    std::set<Vertex> corners;
+    std::size_t edges_twice = 0;
+    for (const std::int32_t t : patch) {
+      corners.insert(soup_.triangles[t].begin(), soup_.triangles[t].end());
+      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h)
+        edges_twice += twins_[h] != no_index && patch.contains(geometry::triangle_of(twins_[h])) ? 1 : 2;
+    }
+    return corners.size() + patch.size() == edges_twice / 2 + 1;
   }
 
   // Whether new triangles have no area, or intersect each other or those that stay.
@@ -182,7 +204,7 @@ class FoldRemover {
   }
 
   SurfaceSoup& soup_;
-  double tolerance_;
+  const FoldRule& rule_;
   FoldReport report_;
   std::size_t old_count_ = 0;         // of triangles, at the beginning of a round
   std::vector<HalfEdge> twins_;       // of edges with two triangles; otherwise no_index
@@ -191,8 +213,8 @@ class FoldRemover {
 
 }  // namespace
 
-FoldReport remove_folds(SurfaceSoup& soup, double tolerance) {
-  return FoldRemover(soup, tolerance).remove();
+FoldReport remove_folds(SurfaceSoup& soup, const FoldRule& rule) {
+  return FoldRemover(soup, rule).remove();
 }
 
 }  // namespace hexpipe::tetmesh::solid

@@ -4,10 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "common/mesh/defaults.hpp"
 #include "common/run/error.hpp"
 #include "tools/tetmesh/geometry/column_index.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
@@ -18,6 +21,11 @@
 
 namespace hexpipe::tetmesh::solid {
 namespace {
+
+// For --repair: a surface that moves by less than that share of its diagonal is the same for most sizes.
+constexpr double repaired_share_of_diagonal = 0.002;
+// Without --repair: a fifteenth of the deviation that a new surface may have from the given one.
+constexpr double mended_share_of_size = 0.01;
 
 class Repairer {
  public:
@@ -31,7 +39,8 @@ class Repairer {
     report_.stray_triangles += remove_stray_sheets(soup_);
     orient();
     fill_holes();
-    remove_folds();
+    if (count() > 0)
+      remove_folds({.tolerance = repaired_share_of_diagonal * geometry::Box::around(soup_.points).diagonal()});
     turn_outward();
     finish();
     return report_;
@@ -49,6 +58,12 @@ class Repairer {
         join_all_borders();
     }
     if (report_.anything()) finish();
+    return report_;
+  }
+
+  RepairReport mend_folds(double tolerance) {
+    remove_folds({.tolerance = tolerance, .keeps_shape = true});
+    finish();
     return report_;
   }
 
@@ -80,7 +95,7 @@ class Repairer {
   void orient();
   void fill_holes();
   void close_hole(const std::vector<geometry::HalfEdge>& border);
-  void remove_folds();
+  void remove_folds(const FoldRule& rule);
   void turn_outward();
   void drop_unused_points();
 
@@ -333,11 +348,8 @@ void Repairer::close_hole(const std::vector<geometry::HalfEdge>& border) {
   report_.hole_triangles += triangles.size();
 }
 
-void Repairer::remove_folds() {
-  constexpr double share_of_diagonal = 0.002;  // a surface that moves by less than that is the same for most sizes
-  if (soup_.points.empty()) return;
-  const double tolerance = share_of_diagonal * geometry::Box::around(soup_.points).diagonal();
-  const FoldReport folds = solid::remove_folds(soup_, tolerance);
+void Repairer::remove_folds(const FoldRule& rule) {
+  const FoldReport folds = solid::remove_folds(soup_, rule);
   report_.mended_folds = folds.places;
   report_.fold_triangles = folds.triangles;
 }
@@ -399,6 +411,18 @@ std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+ModelExtent extent_of(const formats::SurfaceSoup& soup) {
+  ModelExtent extent{.diagonal = geometry::Box::around(soup.points).diagonal()};
+  const Vec3& origin = soup.points.front();
+  for (const auto& [a, b, c] : soup.triangles) {
+    const Vec3 p = soup.points[a] - origin, q = soup.points[b] - origin, r = soup.points[c] - origin;
+    extent.area += norm(cross(q - p, r - p)) / 2;
+    extent.volume += det(p, q, r) / 6;
+  }
+  extent.volume = std::abs(extent.volume);
+  return extent;
+}
+
 }  // namespace
 
 std::string RepairReport::sentence() const {
@@ -436,6 +460,13 @@ RepairReport repair(formats::SurfaceSoup& soup, const RepairOptions& options) {
                         "expected a surface that does not say what is on its sides for --repair, found "
                         "surface/sides.npy; tessellate heals shapes");
   return Repairer(soup, options).repair();
+}
+
+void mend_folds(formats::SurfaceSoup& soup, RepairReport& report) {
+  const double size = default_size(extent_of(soup), std::numeric_limits<double>::infinity());
+  const RepairReport folds = Repairer(soup, {}).mend_folds(mended_share_of_size * size);
+  report.mended_folds = folds.mended_folds;
+  report.fold_triangles = folds.fold_triangles;
 }
 
 RepairReport mend(formats::SurfaceSoup& soup, BaffleRule baffles) {

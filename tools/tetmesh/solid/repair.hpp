@@ -43,6 +43,10 @@ nlohmann::ordered_json to_json(const RepairReport& report);
 // sides, only triangles without area go. Where baffles are kept, sheets are no strays, and borders may be left.
 RepairReport mend(formats::SurfaceSoup& soup, BaffleRule baffles = BaffleRule::drop);
 
+// Makes triangles anew where a few intersect, as repair() does, but only where the surface stays what it is to within a
+// hundredth of the size that suits it, and keeps its components, handles and tags. Counts this in `report`.
+void mend_folds(formats::SurfaceSoup& soup, RepairReport& report);
+
 // Mends, and repairs in this order:
 // - welds points;
 // - removes triangles without area; if the corners of one are distinct, the neighbour at its longest side is cut in

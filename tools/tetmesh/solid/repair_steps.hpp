@@ -26,10 +26,16 @@ struct FoldReport {
   std::size_t places = 0, triangles = 0;  // triangles that were replaced
 };
 
+struct FoldRule {
+  double tolerance = 0;
+  // A place is a disk of one tag, as its new triangles are, and distances are measured at more points.
+  bool keeps_shape = false;
+};
+
 // Takes the triangles that intersect out, together with as few around them as leave a hole with one simple border, and
 // fills the hole; its inner points go. A place is mended only if the new triangles intersect nothing and old and new
-// ones are within `tolerance` of each other, so that bodies that overlap stay as they are. Leaves places with borders
+// ones are within the tolerance of each other, so that bodies that overlap stay as they are. Leaves places with borders
 // or with edges of more than two triangles.
-FoldReport remove_folds(formats::SurfaceSoup& soup, double tolerance);
+FoldReport remove_folds(formats::SurfaceSoup& soup, const FoldRule& rule);
 
 }  // namespace hexpipe::tetmesh::solid

@@ -445,6 +445,15 @@ bool tells_fins(const formats::SurfaceSoup& soup) {
   return std::ranges::any_of(soup.sides, [](const auto& sides) { return sides[0] == sides[1]; });
 }
 
+bool is_boundary(const formats::SurfaceSoup& soup) {
+  try {
+    check_surface(soup);
+    return true;
+  } catch (const DataError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 bool meets_in_sheets(const formats::SurfaceSoup& soup) {
@@ -509,7 +518,7 @@ Surface find_sheets(formats::SurfaceSoup soup) {
 }
 
 Surface boundary_of(formats::SurfaceSoup soup, ShellRule rule, BaffleRule baffles, std::string_view remedy,
-                    std::vector<std::string>& warnings) {
+                    std::vector<std::string>& warnings, const std::function<void(formats::SurfaceSoup&)>& mend_folds) {
   const auto is_in_sheets = [&] {
     return meets_in_sheets(soup) || tells_fins(soup) || (baffles == BaffleRule::keep && has_borders(soup));
   };
@@ -525,7 +534,13 @@ Surface boundary_of(formats::SurfaceSoup soup, ShellRule rule, BaffleRule baffle
   if (baffles == BaffleRule::keep && kept == 0)
     warnings.push_back(fmt::format("{}: --keep-baffles finds no sheet that ends inside", soup.name));
   if (is_in_sheets()) return find_sheets(std::move(soup));
-  check_surface(soup, remedy);
+  try {
+    check_surface(soup, remedy);
+  } catch (const SelfIntersection& intersection) {
+    if (!mend_folds) throw;
+    mend_folds(soup);
+    if (!is_boundary(soup)) throw SelfIntersection(intersection);
+  }
   return find_shells(std::move(soup), rule);
 }
 

@@ -4,6 +4,7 @@
 // may end inside.
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,8 +42,11 @@ Surface find_sheets(formats::SurfaceSoup soup);
 
 // Finds the shells of a soup, or its sheets where more than two triangles meet at an edge, or where baffles are kept
 // and there are some. Adds a sentence to `warnings` for everything that it changed. Throws DataError where the soup is
-// not the boundary of a solid; `remedy` ends the messages about faults that repair.hpp mends.
+// not the boundary of a solid; `remedy` ends the messages about faults that repair.hpp mends. Where shells have no
+// other fault than that they intersect themselves, `mend_folds` may change them; if it leaves an intersection, the
+// message is about the surface as it came.
 Surface boundary_of(formats::SurfaceSoup soup, ShellRule rule, BaffleRule baffles, std::string_view remedy,
-                    std::vector<std::string>& warnings);
+                    std::vector<std::string>& warnings,
+                    const std::function<void(formats::SurfaceSoup&)>& mend_folds = {});
 
 }  // namespace hexpipe::tetmesh::solid

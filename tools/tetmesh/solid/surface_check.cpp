@@ -236,11 +236,11 @@ std::string remedy_for(const formats::SurfaceSoup& soup, std::span<const std::ar
 void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::IntersectionReport& report,
                             std::string_view remedy) {
   if (report.pairs.empty()) return;
-  throw DataError::at(
+  throw SelfIntersection(DataError::at(
       soup.place_of(report.pairs.front()[0]),
       "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}{}{}",
       report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()),
-      hint_for_cad(soup), remedy_for(soup, report.pairs, remedy));
+      hint_for_cad(soup), remedy_for(soup, report.pairs, remedy)));
 }
 
 }  // namespace

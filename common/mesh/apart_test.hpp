@@ -12,7 +12,7 @@
 
 #include "common/mesh/tet_mesh.hpp"
 
-namespace hexpipe::tetmesh::geometry {
+namespace hexpipe {
 
 class ApartTest {
  public:
@@ -68,4 +68,4 @@ class ApartTest {
   std::vector<std::array<Vec3, 2>> directions_;
 };
 
-}  // namespace hexpipe::tetmesh::geometry
+}  // namespace hexpipe
