@@ -111,7 +111,7 @@ void LatticeSolver::correct_curl() {
   });
   fields::Loops loops = triangles();
   add_steps_on_surface(loops);
-  const std::vector<float> correction = fields::curl_correction(distances, loops, curl_limits);
+  const std::vector<float> correction = fields::curl_correction<3>(distances, loops, curl_limits);
   for_each_node([&](std::size_t node) {
     links_.for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
       LatticeLink& t = links_[ij];
