@@ -69,6 +69,7 @@ class LatticeMaker {
 
   SurfaceLattice make(std::span<const Vertex> kept, double row_stretch, const RowGuide& guide) {
     weigh_links(kept);
+    view_links();
     make_anchors(kept);
     if (guide.coordinates) follow(guide);
     diffuse();
@@ -76,9 +77,13 @@ class LatticeMaker {
     for (int i = 0; i < smoothing_sweeps; ++i) sweep();
     if (row_stretch > 0) {
       join_rows(links_, across_, targets_, row_stretch, phases_);
+      view_links();
       for (int i = 0; i < sweeps_after_joining; ++i) sweep();
     }
-    if (guide.coordinates) measure_distances();
+    if (guide.coordinates) {
+      measure_distances();
+      view_links();
+    }
     propose();
     fields::agree(
         surface_.centres.front(), [&](const Proposal&) { return greatest_size_; },
@@ -107,6 +112,7 @@ class LatticeMaker {
                  [&](std::int64_t f) { body(static_cast<std::int32_t>(f)); });
   }
   void weigh_links(std::span<const Vertex> kept);
+  void view_links();
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
   void follow(const RowGuide& guide);
@@ -127,6 +133,8 @@ class LatticeMaker {
   double greatest_size_;
   SurfaceLinks links_;
   LinksAcross across_;
+  std::vector<fields::LinkView<2>> views_;    // of each triangle: of all its links
+  std::vector<std::int64_t> first_view_;      // triangles + 1
   std::vector<double> degrees_;               // of each triangle: the sum of the weights of its links
   std::vector<std::array<double, 2>> pulls_;  // of features on each number of a triangle: their sum
   std::vector<Phases> targets_;               // the numbers that features ask for, each times its pull
@@ -145,6 +153,23 @@ void LatticeMaker::weigh_links(std::span<const Vertex> kept) {
     for (const SurfaceLink& link : across_.of(f)) degrees_[f] += link.weight;
     degrees_[f] = std::max(degrees_[f], 1e-9);
   }
+}
+
+// To be called when distances were changed.
+void LatticeMaker::view_links() {
+  first_view_.assign(1, 0);
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(phases_.size()); ++f) {
+    const auto beside =
+        std::ranges::count_if(links_.at(f), [](const SurfaceLink& link) { return link.neighbour != no_index; });
+    first_view_.push_back(first_view_.back() + beside + static_cast<std::int64_t>(across_.of(f).size()));
+  }
+  views_.resize(static_cast<std::size_t>(first_view_.back()));
+  for_each_triangle([&](std::int32_t f) {
+    std::int64_t next = first_view_[f];
+    for (const SurfaceLink& link : links_.at(f))
+      if (link.neighbour != no_index) views_[next++] = fields::LinkView<2>(link);
+    for (const SurfaceLink& link : across_.of(f)) views_[next++] = fields::LinkView<2>(link);
+  });
 }
 
 void LatticeMaker::pull(std::int32_t f, std::size_t axis, double weight, double coordinate) {
@@ -197,9 +222,7 @@ void LatticeMaker::measure_distances() {
 
 Phases LatticeMaker::view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const {
   Phases sum{};
-  for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
-    if (links_.of[h].neighbour != no_index) links_.of[h].add_seen(phases[links_.of[h].neighbour], sum);
-  for (const SurfaceLink& link : across_.of(f)) link.add_seen(phases[link.neighbour], sum);
+  for (std::int64_t i = first_view_[f]; i < first_view_[f + 1]; ++i) views_[i].add_seen(phases, sum);
   return sum;
 }
 
@@ -229,7 +252,7 @@ void LatticeMaker::reach_the_rest() {
     for (; next < queue.size(); ++next)
       for (geometry::HalfEdge h = 3 * queue[next]; h < 3 * queue[next] + 3; ++h) {
         if (links_.of[h].neighbour == no_index || reached[links_.of[h].neighbour]) continue;
-        reach(links_.of[h].neighbour, links_.of[surface_.twins[h]].seen(phases_[queue[next]]));
+        reach(links_.of[h].neighbour, fields::LinkView<2>(links_.of[surface_.twins[h]]).seen(phases_[queue[next]]));
       }
     if (!reached[seed]) reach(seed, {fields::Complex(1), fields::Complex(1)});
   }
