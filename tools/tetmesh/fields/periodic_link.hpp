@@ -70,8 +70,8 @@ class LinkView {
     }
     return result;
   }
-  void add_seen(const std::vector<std::array<Complex, K>>& of_all, std::array<Complex, K>& sum) const {
-    const std::array<Complex, K> numbers = seen(of_all[neighbour_]);
+  void add_seen(const std::array<Complex, K>& there, std::array<Complex, K>& sum) const {
+    const std::array<Complex, K> numbers = seen(there);
     for (std::size_t k = 0; k < K; ++k) sum[k] += weight_ * numbers[k];
   }
 

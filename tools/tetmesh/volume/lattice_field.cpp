@@ -103,7 +103,7 @@ class LatticeSolver {
   std::vector<std::int32_t> pair_numbers_;      // of each link to a later node: its number among such links
   std::vector<double> degree_;                  // of each node: the sum of the weights of its links
   std::vector<std::array<double, 3>> anchors_;  // how strongly each number is held at 1, as at a point of the lattice
-  std::vector<Phases> phases_;
+  std::vector<Phases> phases_, next_phases_;
 };
 
 void LatticeSolver::measure_degree(std::size_t i) {
@@ -201,7 +201,7 @@ void LatticeSolver::make_anchors(std::size_t i) {
 
 Phases LatticeSolver::view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const {
   Phases sum{};
-  for (const View& view : views_of(i)) view.add_seen(phases, sum);
+  for (const View& view : views_of(i)) view.add_seen(phases[view.neighbour()], sum);
   return sum;
 }
 
@@ -217,8 +217,8 @@ void LatticeSolver::diffuse() {
 }
 
 void LatticeSolver::sweep() {
-  phases_ = fields::swept<3>(
-      phases_, [&](const auto& body) { for_each_node(body); },
+  fields::sweep<3>(
+      phases_, next_phases_, [&](const auto& body) { for_each_node(body); },
       [&](std::size_t i) { return view_of_neighbours(phases_, i); }, [&](std::size_t i) { return degree_[i]; },
       [&](std::size_t i, std::size_t k) { return anchors_[i][k]; });
 }
