@@ -68,8 +68,8 @@ class FrameLattice::Work {
   Proposal agreed(const fields::ProposalIndex<Proposal>& index, const Proposal& proposal) const;
   template <class Wanted>
   std::vector<RowPoint> accept(std::span<const Vec3> fixed, Wanted&& is_wanted) const;
-  bool is_well_inside(const solid::SurfaceClearance& clearance, const Proposal& p) const {
-    return clearance.is_clear(p.point, options_.clearance * options_.size.at(p.point)) && clearance.is_inside(p.point);
+  bool is_clear(const solid::SurfaceClearance& clearance, const Proposal& p) const {
+    return clearance.is_clear(p.point, options_.clearance * options_.size.at(p.point));
   }
   double turned_share() const;
   bool is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const;
@@ -109,7 +109,10 @@ surface::RowGuide FrameLattice::Work::guide() {
   const solid::SurfaceClearance clearance(surface_);
   const auto is_beside = [&](const Vec3& p) { return !clearance.is_clear(p, beside_surface * options_.size.at(p)); };
   // Points inside are chosen, too, so that rows end at the same places on the surface and below it.
-  const auto is_wanted = [&](const Proposal& p) { return is_beside(p.point) || is_well_inside(clearance, p); };
+  const auto is_wanted = [&](const Proposal& p) {
+    if (!is_clear(clearance, p)) return is_beside(p.point);
+    return (options_.clearance < beside_surface && is_beside(p.point)) || clearance.is_inside(p.point);
+  };
   for (const RowPoint& row : accept(fixed, is_wanted))
     if (is_beside(row.at)) guide.points.push_back(row.at);
   return guide;
@@ -117,9 +120,9 @@ surface::RowGuide FrameLattice::Work::guide() {
 
 FramePoints FrameLattice::Work::points_inside(const solid::Surface& surface) {
   const solid::SurfaceClearance clearance(surface);
+  const auto is_well_inside = [&](const Proposal& p) { return is_clear(clearance, p) && clearance.is_inside(p.point); };
   FramePoints result{{}, turned_share()};
-  for (const RowPoint& row : accept(surface.points, [&](const Proposal& p) { return is_well_inside(clearance, p); }))
-    result.points.push_back(row.at);
+  for (const RowPoint& row : accept(surface.points, is_well_inside)) result.points.push_back(row.at);
   for (std::size_t i = 0; i < result.points.size(); ++i)
     result.points[i] += jitter_of(i, options_.jitter * options_.size.at(result.points[i]), options_.seed);
   return result;
@@ -169,13 +172,9 @@ bool FrameLattice::Work::is_free(const geometry::SizedPointGrid& taken, const Pr
     reach += spacing * Vec3{std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
     units[k] = (1 / spacing) * axis;
   }
-  bool free = true;
   const double least = 2 * least_spacing * options_.size.least_near(proposal.size, norm(reach));
-  taken.for_each_near(proposal.point, reach, least, [&](std::int32_t i) {
-    free = maximum_norm(units, taken.points()[i] - proposal.point) >= 1;
-    return free;
-  });
-  return free;
+  return taken.all_near(proposal.point, reach, least,
+                        [&](std::int32_t i) { return maximum_norm(units, taken.points()[i] - proposal.point) >= 1; });
 }
 
 double FrameLattice::Work::turned_share() const {
