@@ -59,11 +59,21 @@ class FrameLattice::Work {
         frames_(solve_frame_field(nodes_)) {}
 
   void fit(const std::vector<bool>& held);
-  const Dislocations& dislocations() const { return dislocations_; }
+  const Dislocations& dislocations() {
+    find_lines_beside([] {});
+    return *lines_;
+  }
   surface::RowGuide guide();
   FramePoints points_inside(const solid::Surface& surface);
 
  private:
+  // Calls body(), and looks for the lattice's dislocations at the same time: body() accepts points one after the other.
+  template <class Body>
+  void find_lines_beside(Body&& body) {
+    if (lines_) return body();
+    both_at_once([&] { lines_ = find_dislocations(field_->links, field_->coordinates, background_, adjacency_); },
+                 body);
+  }
   void propose(std::size_t node, std::vector<Proposal>& proposals) const;
   Proposal agreed(const fields::ProposalIndex<Proposal>& index, const Proposal& proposal) const;
   template <class Wanted>
@@ -84,13 +94,13 @@ class FrameLattice::Work {
   std::optional<LatticeField> field_;
   std::vector<Vec3> spacing_;        // of the lattice along the frames' axes, in sizes
   std::vector<Proposal> proposals_;  // the most trusted first
-  Dislocations dislocations_;
+  std::optional<Dislocations> lines_;
 };
 
 void FrameLattice::Work::fit(const std::vector<bool>& held) {
   held_ = held;
   field_.emplace(solve_lattice_field(nodes_, frames_, held));
-  dislocations_ = find_dislocations(field_->links, field_->coordinates, background_, adjacency_);
+  lines_.reset();
   spacing_.clear();
   for (const auto& [x, y, z] : field_->steps) spacing_.push_back({norm(x), norm(y), norm(z)});
   proposals_ = parallel_collect<Proposal>(
@@ -113,8 +123,10 @@ surface::RowGuide FrameLattice::Work::guide() {
     if (!is_clear(clearance, p)) return is_beside(p.point);
     return (options_.clearance < beside_surface && is_beside(p.point)) || clearance.is_inside(p.point);
   };
-  for (const RowPoint& row : accept(fixed, is_wanted))
-    if (is_beside(row.at)) guide.points.push_back(row.at);
+  find_lines_beside([&] {
+    for (const RowPoint& row : accept(fixed, is_wanted))
+      if (is_beside(row.at)) guide.points.push_back(row.at);
+  });
   return guide;
 }
 
@@ -122,7 +134,9 @@ FramePoints FrameLattice::Work::points_inside(const solid::Surface& surface) {
   const solid::SurfaceClearance clearance(surface);
   const auto is_well_inside = [&](const Proposal& p) { return is_clear(clearance, p) && clearance.is_inside(p.point); };
   FramePoints result{{}, turned_share()};
-  for (const RowPoint& row : accept(surface.points, is_well_inside)) result.points.push_back(row.at);
+  find_lines_beside([&] {
+    for (const RowPoint& row : accept(surface.points, is_well_inside)) result.points.push_back(row.at);
+  });
   for (std::size_t i = 0; i < result.points.size(); ++i)
     result.points[i] += jitter_of(i, options_.jitter * options_.size.at(result.points[i]), options_.seed);
   return result;
@@ -154,8 +168,12 @@ std::vector<RowPoint> FrameLattice::Work::accept(std::span<const Vec3> fixed, Wa
   geometry::SizedPointGrid taken(surface_.points.front());
   for (const Vec3& p : fixed) taken.add(p, 2 * least_spacing * options_.size.at(p));
   std::vector<RowPoint> rows;
+  // Proposals that agree exactly follow each other.
+  const Vec3* decided = nullptr;  // the last point that was taken or is not wanted
   for (const Proposal& p : proposals_) {
-    if (!is_free(taken, p) || !is_wanted(p)) continue;
+    if ((decided && p.point == *decided) || !is_free(taken, p)) continue;
+    decided = &p.point;
+    if (!is_wanted(p)) continue;
     taken.add(p.point, 2 * least_spacing * p.size);
     const auto& [x, y, z] = field_->steps[p.node];
     rows.push_back({p.point, {p.size * x, p.size * y, p.size * z}});
