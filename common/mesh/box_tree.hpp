@@ -25,6 +25,11 @@ struct Box {
     low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z)};
     high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z)};
   }
+  // Whether they have a point in common, if only on their sides.
+  bool meets(const Box& other) const {
+    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
+           low.z <= other.high.z && other.low.z <= high.z;
+  }
   double diagonal() const { return norm(high - low); }
   Vec3 centre() const { return 0.5 * (low + high); }
   // The first of the axes along which it is longest.
@@ -61,6 +66,24 @@ class BoxTree {
   double first_hit(const Vec3& from, const Vec3& direction, double most, LengthTo&& length_to) const {
     const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
     return search(most, length_to, [&](const Node& node) { return node.box.entry(from, inverse); });
+  }
+
+  // Calls visit(thing) for the things in the leaves whose boxes meet this one: those that meet it, and others beside
+  // them.
+  template <class Visit>
+  void for_each_near(const Box& box, Visit&& visit) const {
+    std::array<std::int32_t, most_pending> stack;
+    std::size_t depth = 0;
+    if (!nodes_.empty()) stack[depth++] = 0;
+    while (depth > 0) {
+      const std::int32_t number = stack[--depth];
+      const Node& node = nodes_[number];
+      if (!node.box.meets(box)) continue;
+      for (std::int32_t i = node.first; i < node.first + node.count; ++i) visit(things_[i]);
+      if (node.count > 0) continue;
+      stack[depth++] = node.first;
+      stack[depth++] = number + 1;
+    }
   }
 
  private:
