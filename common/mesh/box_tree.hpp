@@ -26,6 +26,7 @@ struct Box {
     low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z)};
     high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z)};
   }
+  // Whether they have a point in common, if only on their sides.
   bool meets(const Box& other) const {
     return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
            low.z <= other.high.z && other.low.z <= high.z;
@@ -68,28 +69,21 @@ class BoxTree {
     return search(most, length_to, [&](const Node& node) { return node.box.entry(from, inverse); });
   }
 
-  // Calls visit(one, other) once for each pair of things whose boxes meet, and for some whose boxes are near each
-  // other. Each thing has one box.
+  // Calls visit(thing) for the things in the leaves whose boxes meet this one: those that meet it, and others beside
+  // them.
   template <class Visit>
-  void for_each_near_pair(Visit&& visit) const {
-    std::vector<std::array<std::int32_t, 2>> pending;
-    if (!nodes_.empty()) pending.push_back({0, 0});
-    while (!pending.empty()) {
-      const auto [a, b] = pending.back();
-      pending.pop_back();
-      const Node &one = nodes_[a], &other = nodes_[b];
-      if (a != b && !one.box.meets(other.box)) continue;
-      if (one.count > 0 && other.count > 0) {
-        for (std::int32_t i = one.first; i < one.first + one.count; ++i)
-          for (std::int32_t k = a == b ? i + 1 : other.first; k < other.first + other.count; ++k)
-            visit(things_[i], things_[k]);
-      } else if (a == b) {
-        pending.insert(pending.end(), {{a + 1, a + 1}, {one.first, one.first}, {a + 1, one.first}});
-      } else if (other.count > 0 || (one.count == 0 && one.box.diagonal() > other.box.diagonal())) {
-        pending.insert(pending.end(), {{a + 1, b}, {one.first, b}});
-      } else {
-        pending.insert(pending.end(), {{a, b + 1}, {a, other.first}});
-      }
+  void for_each_near(const Box& box, Visit&& visit) const {
+    std::array<std::int32_t, most_pending> stack;
+    std::size_t depth = 0;
+    if (!nodes_.empty()) stack[depth++] = 0;
+    while (depth > 0) {
+      const std::int32_t number = stack[--depth];
+      const Node& node = nodes_[number];
+      if (!node.box.meets(box)) continue;
+      for (std::int32_t i = node.first; i < node.first + node.count; ++i) visit(things_[i]);
+      if (node.count > 0) continue;
+      stack[depth++] = node.first;
+      stack[depth++] = number + 1;
     }
   }
 

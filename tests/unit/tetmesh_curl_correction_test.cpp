@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
+#include <vector>
+
+#include "common/run/parallel.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::fields;
@@ -33,14 +37,14 @@ TEST(CurlCorrection, LeavesDistancesThatAddUp) {
   const Loops loops = strip(5);
   std::vector<float> distances(300);
   for (std::size_t i = 0; i < 5; ++i) distances[i] = distances[100 + i] = 1 + 0.1f * static_cast<float>(i);
-  for (const float c : curl_correction(distances, loops, limits)) EXPECT_EQ(c, 0);
+  for (const float c : curl_correction<1>(distances, loops, limits)) EXPECT_EQ(c, 0);
 }
 
 TEST(CurlCorrection, SharesOutWhatIsMissing) {
   const Loops loops = strip(5);
   std::vector<float> distances(300);
   for (std::size_t i = 0; i < 5; ++i) distances[i] = 1, distances[100 + i] = 1.3f;
-  std::vector<float> corrected = curl_correction(distances, loops, limits);
+  std::vector<float> corrected = curl_correction<1>(distances, loops, limits);
   for (const std::size_t i : {0U, 2U, 4U}) {
     EXPECT_GT(corrected[i], 0.1);
     EXPECT_NEAR(corrected[i], -corrected[100 + i], 1e-5);
@@ -62,6 +66,91 @@ TEST(CurlCorrection, ForgetsStepsThatLedNowhere) {
   loops.close();
   ASSERT_EQ(loops[1].size(), 1U);
   EXPECT_EQ(loops[1][0], ~8);
+}
+
+// The same iteration over single loops and numbers, one after the other.
+std::vector<float> plain_correction(std::span<const float> distances, const Loops& loops, const CurlLimits& by) {
+  const auto dot = [](const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
+    return sum;
+  };
+  const auto add_sums = [&](std::span<const float> values, bool lacking, std::vector<float>& image) {
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      float sum = 0;
+      for (const std::int32_t step : loops[i]) sum += step < 0 ? -values[~step] : values[step];
+      if (lacking) sum = loops.sum_of(i) - sum;
+      for (const std::int32_t step : loops[i]) (step < 0 ? image[~step] : image[step]) += step < 0 ? -sum : sum;
+    }
+  };
+  std::vector<float> correction(distances.size()), rest(distances.size()), image(distances.size());
+  add_sums(distances, true, rest);
+  std::vector<float> direction = rest;
+  double product = dot(rest, rest);
+  const double enough = by.tolerance * by.tolerance * product;
+  for (int k = 0; k < by.most_iterations && product > enough; ++k) {
+    for (std::size_t i = 0; i < image.size(); ++i) image[i] = by.stiffness * direction[i];
+    add_sums(direction, false, image);
+    const auto step = static_cast<float>(product / dot(direction, image));
+    for (std::size_t i = 0; i < image.size(); ++i) correction[i] += step * direction[i], rest[i] -= step * image[i];
+    const double next = dot(rest, rest);
+    const auto onward = static_cast<float>(next / product);
+    for (std::size_t i = 0; i < image.size(); ++i) direction[i] = rest[i] + onward * direction[i];
+    product = next;
+  }
+  return correction;
+}
+
+// Loops over `links` links in a row, most of them in bundles of K: three links each, with axes in several orders and
+// senses. Every seventh link has a loop for one axis alone, every eleventh two loops that are no bundle.
+template <std::size_t K>
+Loops loops_over(std::int32_t links) {
+  Loops loops;
+  const auto number = [](std::int32_t link, std::size_t axis) {
+    return static_cast<std::int32_t>(K) * link + static_cast<std::int32_t>(axis % K);
+  };
+  for (std::int32_t i = 0; i + 3 < links; ++i) {
+    const auto turn = static_cast<std::size_t>(i % 5);
+    for (std::size_t k = 0; k < K; ++k) {
+      loops.add_step(number(i, k), i % 2 == 1);
+      loops.add_step(number(i + 3, K - 1 - (k + turn) % K), (turn + k) % 2 == 1);
+      loops.add_step(number(i + 1, k + turn), true);
+      loops.close(i % 3 == 0 ? 1 : 0);
+    }
+    if (i % 7 == 0) {
+      loops.add_step(number(i, turn), false);
+      loops.close(0.5);
+    }
+    if (i % 11 == 0)
+      for (std::size_t k = 0; k < 2; ++k) {
+        loops.add_step(number(i, 0), false);
+        loops.add_step(number(i + static_cast<std::int32_t>(k), 0), k == 0);
+        loops.close();
+      }
+  }
+  return loops;
+}
+
+// Enough links for several parts: each number has to get its sums in the order of the loops.
+template <std::size_t K>
+void expect_as_plain(std::int32_t links) {
+  const Loops loops = loops_over<K>(links);
+  std::vector<float> distances(K * static_cast<std::size_t>(links));
+  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = std::sin(static_cast<float>(i));
+  constexpr CurlLimits few{.stiffness = 0.05f, .most_iterations = 6, .tolerance = 1e-6};
+  const std::vector<float> plain = plain_correction(distances, loops, few);
+  for (const int threads : {1, 2, 3}) {
+    const ThreadLimit limit(threads);
+    EXPECT_EQ(curl_correction<K>(distances, loops, few), plain) << threads << " threads";
+  }
+}
+
+TEST(CurlCorrection, IsThatOfSingleLoopsInTheirOrder) {
+  expect_as_plain<1>(100);
+  expect_as_plain<2>(100);
+  expect_as_plain<3>(100);
+  expect_as_plain<2>(70000);
+  expect_as_plain<3>(70000);
 }
 
 }  // namespace

@@ -142,12 +142,16 @@ std::vector<std::array<std::int32_t, 2>> crossing_triangles(std::span<const Vec3
   };
   std::vector<std::array<std::int32_t, 2>> pairs;
   const BoxTree tree(boxes, std::vector<double>(boxes.size()));
-  tree.for_each_near_pair([&](std::int32_t one, std::int32_t other) {
-    if (pairs.size() == most_pairs || !boxes[one].meets(boxes[other])) return;
-    if (is_flat[one] || is_flat[other] || (is_beside_flat(one) && is_beside_flat(other))) return;
-    if (cross(one, other)) pairs.push_back({std::min(one, other), std::max(one, other)});
-  });
+  for (std::int32_t one = 0; one < static_cast<std::int32_t>(triangles.size()) && pairs.size() < most_pairs; ++one) {
+    if (is_flat[one]) continue;
+    tree.for_each_near(boxes[one], [&](std::int32_t other) {
+      if (other <= one || is_flat[other] || !boxes[one].meets(boxes[other])) return;
+      if (is_beside_flat(one) && is_beside_flat(other)) return;
+      if (cross(one, other)) pairs.push_back({one, other});
+    });
+  }
   std::ranges::sort(pairs);
+  if (pairs.size() > most_pairs) pairs.resize(most_pairs);
   return pairs;
 }
 

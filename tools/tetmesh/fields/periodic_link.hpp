@@ -15,16 +15,11 @@ namespace hexpipe::tetmesh::fields {
 template <std::size_t K>
 struct PeriodicLink {
   std::array<double, K> distance{};  // in sizes
-  std::array<Complex, K> turn{};     // by the distances
   std::array<std::uint8_t, K> axis{};
   std::array<bool, K> flipped{};
   std::int32_t neighbour = no_index;
   double weight = 0;
 
-  // To be called when the distances were changed.
-  void set_turn() {
-    for (std::size_t k = 0; k < K; ++k) turn[k] = number_at(distance[k]);
-  }
   // Adds corrections to the distances, none larger than `most`.
   void correct(std::span<const float> corrections, double most) {
     for (std::size_t k = 0; k < K; ++k) distance[k] += std::clamp<double>(corrections[k], -most, most);
@@ -41,7 +36,6 @@ struct PeriodicLink {
       back.flipped[there] = flipped[k];
       back.distance[there] = flipped[k] ? distance[k] : -distance[k];
     }
-    back.set_turn();
     return back;
   }
 
@@ -50,19 +44,43 @@ struct PeriodicLink {
   double seen_along(const Numbers& there, std::size_t k) const {
     return flipped[k] ? -there[axis[k]] : there[axis[k]];
   }
+};
+
+// How a node sees the numbers of a neighbour. Solvers look at all links in each of their steps, and their time is that
+// of reading them from memory, so it has nothing else, and for K = 3 it is one line of the cache.
+template <std::size_t K>
+class LinkView {
+ public:
+  LinkView() = default;
+  explicit LinkView(const PeriodicLink<K>& link) : weight_(link.weight), neighbour_(link.neighbour), axis_(link.axis) {
+    for (std::size_t k = 0; k < K; ++k) {
+      turn_[k] = number_at(link.distance[k]);
+      if (link.flipped[k]) flipped_ |= static_cast<std::uint8_t>(1 << k);
+    }
+  }
+
+  std::int32_t neighbour() const { return neighbour_; }
+  const Complex& turn(std::size_t k) const { return turn_[k]; }
   // The neighbour's numbers, as the node's own would have to be.
   std::array<Complex, K> seen(const std::array<Complex, K>& there) const {
     std::array<Complex, K> result;
     for (std::size_t k = 0; k < K; ++k) {
-      const Complex along = there[axis[k]];
-      result[k] = times(flipped[k] ? std::conj(along) : along, turn[k]);
+      const Complex along = there[axis_[k]];
+      result[k] = times({along.real(), (flipped_ >> k & 1) != 0 ? -along.imag() : along.imag()}, turn_[k]);
     }
     return result;
   }
   void add_seen(const std::array<Complex, K>& there, std::array<Complex, K>& sum) const {
     const std::array<Complex, K> numbers = seen(there);
-    for (std::size_t k = 0; k < K; ++k) sum[k] += weight * numbers[k];
+    for (std::size_t k = 0; k < K; ++k) sum[k] += weight_ * numbers[k];
   }
+
+ private:
+  std::array<Complex, K> turn_{};  // by the distances
+  double weight_ = 0;
+  std::int32_t neighbour_ = no_index;
+  std::array<std::uint8_t, K> axis_{};
+  std::uint8_t flipped_ = 0;  // a bit for each axis
 };
 
 }  // namespace hexpipe::tetmesh::fields

@@ -8,6 +8,7 @@
 #include <complex>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace hexpipe::tetmesh::fields {
@@ -26,11 +27,15 @@ inline Complex unit(const Complex& z) {
   return modulus > 0 ? z / modulus : Complex(1);
 }
 
+inline double scalar_product(const Complex& a, const Complex& b) {
+  return a.real() * b.real() + a.imag() * b.imag();
+}
+
 template <std::size_t K>
 double product(const PeriodicNumbers<K>& a, const PeriodicNumbers<K>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t k = 0; k < K; ++k) sum += a[i][k].real() * b[i][k].real() + a[i][k].imag() * b[i][k].imag();
+    for (std::size_t k = 0; k < K; ++k) sum += scalar_product(a[i][k], b[i][k]);
   return sum;
 }
 
@@ -47,16 +52,16 @@ inline constexpr double inertia = 0.3;  // of a number's own value, against its 
 
 // Sets each number to the mean of what links and what holds it say, all at once from the numbers before, so that the
 // order of the nodes does not count. view(node) is the weighted sum of the neighbours' numbers, degree(node) the weight
-// of all links, and held(node, k) what holds number k, times its weight.
+// of all links, and held(node, k) what holds number k, times its weight. `next` is memory that is kept between sweeps.
 template <std::size_t K, class ForEach, class View, class Degree, class Held>
-PeriodicNumbers<K> swept(const PeriodicNumbers<K>& numbers, ForEach&& for_each, View&& view, Degree&& degree,
-                         Held&& held) {
-  PeriodicNumbers<K> next(numbers.size());
+void sweep(PeriodicNumbers<K>& numbers, PeriodicNumbers<K>& next, ForEach&& for_each, View&& view, Degree&& degree,
+           Held&& held) {
+  next.resize(numbers.size());
   for_each([&](auto i) {
     const std::array<Complex, K> seen = view(i);
     for (std::size_t k = 0; k < K; ++k) next[i][k] = unit(seen[k] + inertia * degree(i) * numbers[i][k] + held(i, k));
   });
-  return next;
+  numbers.swap(next);
 }
 
 struct DiffusionLimits {
@@ -67,10 +72,11 @@ struct DiffusionLimits {
 // Minimizes the quadratic energy of differences along links and from the held numbers, by conjugate gradients,
 // preconditioned by the diagonal. `rest` is the held numbers times their weights. for_each(body) calls body(node) for
 // all nodes in parallel. diagonal(node, k) is the weight of all links and of the hold on number k. view(numbers, node)
-// is the weighted sum of the neighbours' numbers, as the node sees them. The iteration starts from zeros.
-template <std::size_t K, class ForEach, class Diagonal, class View>
+// is the weighted sum of the neighbours' numbers, as the node sees them. product(a, b) is the scalar product. The
+// iteration starts from zeros.
+template <std::size_t K, class ForEach, class Diagonal, class View, class Product>
 PeriodicNumbers<K> diffused(PeriodicNumbers<K> rest, const DiffusionLimits& limits, ForEach&& for_each,
-                            Diagonal&& diagonal, View&& view) {
+                            Diagonal&& diagonal, View&& view, Product&& product) {
   PeriodicNumbers<K> numbers(rest.size()), z(rest.size()), image(rest.size());
   const auto precondition = [&] {
     for_each([&](std::size_t i) {
@@ -79,14 +85,14 @@ PeriodicNumbers<K> diffused(PeriodicNumbers<K> rest, const DiffusionLimits& limi
   };
   precondition();
   PeriodicNumbers<K> direction = z;
-  double rest_z = product<K>(rest, z);
+  double rest_z = product(rest, z);
   const double enough = limits.tolerance * limits.tolerance * rest_z;
   for (int step = 0; step < limits.iterations && rest_z > enough; ++step) {
     for_each([&](std::size_t i) {
       const std::array<Complex, K> seen = view(direction, i);
       for (std::size_t k = 0; k < K; ++k) image[i][k] = diagonal(i, k) * direction[i][k] - seen[k];
     });
-    const double length = rest_z / product<K>(direction, image);
+    const double length = rest_z / product(direction, image);
     for_each([&](std::size_t i) {
       for (std::size_t k = 0; k < K; ++k) {
         numbers[i][k] += length * direction[i][k];
@@ -94,13 +100,19 @@ PeriodicNumbers<K> diffused(PeriodicNumbers<K> rest, const DiffusionLimits& limi
       }
     });
     precondition();
-    const double next = product<K>(rest, z), ratio = next / rest_z;
+    const double next = product(rest, z), ratio = next / rest_z;
     for_each([&](std::size_t i) {
       for (std::size_t k = 0; k < K; ++k) direction[i][k] = z[i][k] + ratio * direction[i][k];
     });
     rest_z = next;
   }
   return numbers;
+}
+
+template <std::size_t K, class ForEach, class Diagonal, class View>
+PeriodicNumbers<K> diffused(PeriodicNumbers<K> rest, const DiffusionLimits& limits, ForEach&& for_each,
+                            Diagonal&& diagonal, View&& view) {
+  return diffused<K>(std::move(rest), limits, for_each, diagonal, view, product<K>);
 }
 
 }  // namespace hexpipe::tetmesh::fields

@@ -7,14 +7,20 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "common/mesh/apart_test.hpp"
+#include "common/mesh/box_tree.hpp"
+#include "common/run/parallel.hpp"
 
 namespace hexpipe::tetmesh::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
+constexpr std::int64_t triangles_in_block = 512;
+
 using TriangleBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
 
 Point to_cgal(const Vec3& p) {
@@ -95,6 +101,39 @@ std::vector<TriangleBox> boxes_of(std::span<const Vec3> points, std::span<const 
 
 struct LimitReached {};
 
+// All pairs of triangles that intersect; nothing if there are more than the limit.
+std::optional<std::vector<std::array<std::int32_t, 2>>> all_intersections(std::span<const Vec3> points,
+                                                                          std::span<const Triangle> triangles,
+                                                                          const IntersectionTest& intersect,
+                                                                          std::size_t limit) {
+  using Pairs = std::vector<std::array<std::int32_t, 2>>;
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles) boxes.push_back(Box::around(std::array{points[a], points[b], points[c]}));
+  const BoxTree tree(boxes, std::vector<double>(boxes.size()));
+  Pairs all;
+  try {
+    parallel_in_order(
+        static_cast<std::int64_t>(triangles.size()), triangles_in_block,
+        [&](std::int64_t begin, std::int64_t end) {
+          Pairs pairs;
+          for (auto first = static_cast<std::int32_t>(begin); first < end && pairs.size() <= limit; ++first)
+            tree.for_each_near(boxes[first], [&](std::int32_t second) {
+              if (first < second && boxes[first].meets(boxes[second]) && intersect(first, second))
+                pairs.push_back({first, second});
+            });
+          return pairs;
+        },
+        [&](const Pairs& pairs) {
+          all.insert(all.end(), pairs.begin(), pairs.end());
+          if (all.size() > limit) throw LimitReached();
+        });
+  } catch (const LimitReached&) {
+    return std::nullopt;
+  }
+  return all;
+}
+
 }  // namespace
 
 int orientation_along_z(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -109,6 +148,12 @@ IntersectionReport find_intersections(std::span<const Vec3> points, std::span<co
                                       std::size_t limit) {
   IntersectionReport report;
   const IntersectionTest intersect(points, triangles);
+  if (auto all = all_intersections(points, triangles, intersect, limit)) {
+    report.pairs = std::move(*all);
+    std::ranges::sort(report.pairs);
+    return report;
+  }
+  // CGAL's search decides which pairs are reported where there are too many. It takes five times as long.
   auto take = [&](const TriangleBox& first, const TriangleBox& second) {
     if (!intersect(first.info(), second.info())) return;
     if (report.pairs.size() == limit) throw LimitReached();

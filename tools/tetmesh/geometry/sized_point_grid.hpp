@@ -29,10 +29,14 @@ constexpr std::uint64_t cell_key(const GridCell& cell) {
   return key;
 }
 
+// Four cells in a row along x have hashes that follow each other, so that a search, which looks at cells row by row,
+// finds them side by side in memory.
 struct CellKeyHash {
   std::size_t operator()(std::uint64_t key) const {
-    key *= 0x9e3779b97f4a7c15u;
-    return key ^ key >> 32;
+    constexpr int place_of_x = 42;
+    constexpr std::uint64_t in_row = 3;
+    const std::uint64_t row = (key & ~(in_row << place_of_x)) * 0x9e3779b97f4a7c15u;
+    return ((row ^ row >> 32) & ~in_row) | (key >> place_of_x & in_row);
   }
 };
 
@@ -69,6 +73,16 @@ class SizedPointGrid {
   void for_each_near(const Vec3& p, double reach, double least, Visit&& visit) const {
     for_each_near(p, Vec3{reach, reach, reach}, least, visit);
   }
+  // Whether test(number) is true for all of these points. Those in the cell of p come first: they are the nearest, and
+  // where one of them fails, the search ends.
+  template <class Test>
+  bool all_near(const Vec3& p, const Vec3& reach, double least, Test&& test) const {
+    for (const Octave& octave : octaves_)
+      if (2 * octave.width >= least && !visit_cell(octave, cell_of(p, octave.width), test)) return false;
+    for (const Octave& octave : octaves_)
+      if (2 * octave.width >= least && !visit_octave(octave, p, reach, test)) return false;
+    return true;
+  }
 
  private:
   static constexpr double most_cells = 1e6;  // along an axis
@@ -100,12 +114,17 @@ class SizedPointGrid {
     GridCell cell;
     for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2])
       for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1])
-        for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0]) {
-          const auto head = octave.heads.find(cell_key(cell));
-          if (head == octave.heads.end()) continue;
-          for (std::int32_t i = head->second; i != no_index; i = next_[i])
-            if (!visit(i)) return false;
-        }
+        for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0])
+          if (!visit_cell(octave, cell, visit)) return false;
+    return true;
+  }
+
+  template <class Visit>
+  bool visit_cell(const Octave& octave, const GridCell& cell, Visit&& visit) const {
+    const auto head = octave.heads.find(cell_key(cell));
+    if (head == octave.heads.end()) return true;
+    for (std::int32_t i = head->second; i != no_index; i = next_[i])
+      if (!visit(i)) return false;
     return true;
   }
 

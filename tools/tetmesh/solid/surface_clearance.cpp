@@ -12,9 +12,12 @@ SurfaceClearance::SurfaceClearance(const Surface& surface)
       columns_(surface.points, surface.triangles) {}
 
 bool SurfaceClearance::is_clear(const Vec3& p, double clearance) const {
+  // One triangle that is too near ends the search: nothing is nearer than 0.
   const auto distance_to = [&](std::int32_t number) {
     const auto& [a, b, c] = surface_.triangles[number];
-    return std::sqrt(geometry::TriangleDistance(surface_.points[a], surface_.points[b], surface_.points[c]).squared(p));
+    const double distance =
+        std::sqrt(geometry::TriangleDistance(surface_.points[a], surface_.points[b], surface_.points[c]).squared(p));
+    return distance < clearance ? 0 : distance;
   };
   return triangles_.least(p, 1, clearance, distance_to) >= clearance;
 }

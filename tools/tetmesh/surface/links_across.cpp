@@ -50,7 +50,6 @@ SurfaceLink link_across(const SurfaceLinks& links, const FieldWalker& walker, co
       (2 / (links.surface.sizes[f] + links.surface.sizes[g])) * (links.surface.centres[f] - links.surface.centres[g]);
   for (std::size_t k = 0; k < 2; ++k)
     link.way[k] = link.distance[k] = 0.5 * dot(here[k] + link.matched(k, there), back);
-  link.set_turn();
   return link;
 }
 

@@ -205,7 +205,7 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
   for_each_corner(links, [&](geometry::HalfEdge h) { add_corner(links, h, loops); });
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links.of.size()); ++h)
     if (links.surface.feature[h]) add_rows_between(links, h, loops);
-  const std::vector<float> correction = fields::curl_correction(distances_of(links), loops, curl_limits);
+  const std::vector<float> correction = fields::curl_correction<2>(distances_of(links), loops, curl_limits);
   links.change_distances([&](geometry::HalfEdge h, SurfaceLink& link) {
     const std::int32_t f = geometry::triangle_of(h);
     const double longest =
@@ -223,7 +223,7 @@ std::vector<double> steps_along_features(const SurfaceLinks& links) {
   add_same_steps_at_joints(links, loops);
   for_each_corner(links, [&](geometry::HalfEdge h) { add_corner(links, h, loops); });
   std::vector<float> distances = distances_of(links);
-  const std::vector<float> correction = fields::curl_correction(distances, loops, limits_of_rows);
+  const std::vector<float> correction = fields::curl_correction<2>(distances, loops, limits_of_rows);
   for (std::size_t i = 0; i < distances.size(); ++i) distances[i] += correction[i];
   std::vector<double> steps(links.of.size());
   for_each_fan(links, [&](const FeatureFan& fan) {

@@ -74,12 +74,12 @@ DistanceIndex::DistanceIndex(std::span<const Vec3> points, std::span<const Trian
   }
   const Vec3 extent = high - low_;
   double area = 0;
-  normals_.reserve(triangles.size());
+  planes_.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) {
     const Vec3 normal = cross(points[b] - points[a], points[c] - points[a]);
     const double length = norm(normal);
     area += length;
-    normals_.push_back(unit(normal));
+    planes_.push_back({points[a], unit(normal)});
   }
   const double edge = std::sqrt(area / static_cast<double>(triangles.size()));
   width_ = std::max(edge, std::max({extent.x, extent.y, extent.z}) / most_cells);
@@ -163,9 +163,10 @@ double DistanceIndex::squared_to_box(const Vec3& p, const Cell& cell) const {
 void DistanceIndex::look_in_cell(const Vec3& p, const Cell& cell, Search& search) const {
   const std::int64_t number = number_of(cell);
   for (std::int64_t i = offsets_[number]; i < offsets_[number + 1] && !search.is_done(); ++i) {
-    const auto [a, b, c] = triangles_[members_[i]];
-    const double height = dot(p - points_[a], normals_[members_[i]]);
+    const auto& [through, normal] = planes_[members_[i]];
+    const double height = dot(p - through, normal);
     if (height * height >= search.best) continue;
+    const auto [a, b, c] = triangles_[members_[i]];
     const double squared = geometry::TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
     if (squared >= search.best) continue;
     search.best = squared;

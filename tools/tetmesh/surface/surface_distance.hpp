@@ -46,7 +46,10 @@ class DistanceIndex {
 
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
-  std::vector<Vec3> normals_;  // of length 1
+  struct Plane {
+    Vec3 through, normal;  // of length 1
+  };
+  std::vector<Plane> planes_;  // of the triangles, through their first corners
   Vec3 low_;
   double width_;
   Cell counts_{};

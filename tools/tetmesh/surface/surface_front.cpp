@@ -219,18 +219,16 @@ bool SurfaceFront::is_free(const SizedPoint& point, double distance) const {
   const auto [along, across] = spacing_[point.triangle];
   const double least = distance * point.size;
   const double reach = std::max({1.0, distance * std::hypot(1.0, along, across)}) * point.size;
-  bool is_free = true;
-  grid_.for_each_near(point.position, reach, size_.least_near(point.size, reach), [&](std::int32_t i) {
+  const double least_size = size_.least_near(point.size, reach);
+  return grid_.all_near(point.position, Vec3{reach, reach, reach}, least_size, [&](std::int32_t i) {
     const Vec3 d = grid_.points()[i] - point.position;
     const auto is_far = [&, off = dot(d, n)](const Vec3& axis, double wanted) {
       const double here = dot(d, axis);
       return here * here + off * off >= wanted * wanted;
     };
     if (is_far(x, along * least) || is_far(y, across * least)) return true;
-    is_free = std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > same_side_cosine; });
-    return is_free;
+    return std::ranges::none_of(normals_[i], [&](const Vec3& m) { return dot(n, m) > same_side_cosine; });
   });
-  return is_free;
 }
 
 void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook, double distance) {

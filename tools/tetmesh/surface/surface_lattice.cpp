@@ -55,6 +55,125 @@ struct Proposal {
   const Vec3& place() const { return point.position; }
 };
 
+// Calls body(link) for the links of a triangle, to those beside it and to those that face it.
+template <class Body>
+void for_each_link(const SurfaceLinks& links, const LinksAcross& across, std::int32_t f, Body&& body) {
+  for (const SurfaceLink& link : links.at(f))
+    if (link.neighbour != no_index) body(link);
+  for (const SurfaceLink& link : across.of(f)) body(link);
+}
+
+// Spreads the numbers of triangles along the links, as they are now. A surface that was refined has neighbours far
+// apart in its list of triangles, so the triangles stand here in the order in which a walk over the links finds them:
+// then what a triangle sees is in the cache. Scalar products are summed up in the order of the list all the same.
+class PhaseSolver {
+ public:
+  PhaseSolver(const SurfaceLinks& links, const LinksAcross& across, const std::vector<double>& degrees,
+              const std::vector<Phases>& targets)
+      : order_(walk(links)), terms_(order_.size()) {
+    std::vector<std::int32_t> place(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) place[order_[i]] = static_cast<std::int32_t>(i);
+    for (const std::int32_t f : order_) {
+      for_each_link(links, across, f, [&](const SurfaceLink&) { ++first_view_.back(); });
+      first_view_.push_back(first_view_.back());
+    }
+    first_view_.pop_back();
+    first_view_.insert(first_view_.begin(), 0);
+    views_.resize(static_cast<std::size_t>(first_view_.back()));
+    degrees_ = in_order(degrees);
+    targets_ = in_order(targets);
+    for_each([&](std::size_t i) {
+      std::int64_t next = first_view_[i];
+      for_each_link(links, across, order_[i], [&](SurfaceLink link) {
+        link.neighbour = place[link.neighbour];
+        views_[next++] = fields::LinkView<2>(link);
+      });
+    });
+  }
+
+  std::vector<Phases> diffused(const std::vector<std::array<double, 2>>& pulls) {
+    const std::vector<std::array<double, 2>> pull = in_order(pulls);
+    return in_list(fields::diffused<2>(
+        targets_, diffusion_limits, [&](const auto& body) { for_each(body); },
+        [&](std::size_t i, std::size_t k) { return degrees_[i] + pull[i][k]; },
+        [&](const std::vector<Phases>& phases, std::size_t i) { return view(phases, i); },
+        [&](const std::vector<Phases>& a, const std::vector<Phases>& b) { return product(a, b); }));
+  }
+
+  void smooth(std::vector<Phases>& phases, int sweeps) const {
+    std::vector<Phases> numbers = in_order(phases), next;
+    for (int sweep = 0; sweep < sweeps; ++sweep)
+      fields::sweep<2>(
+          numbers, next, [&](const auto& body) { for_each(body); }, [&](std::size_t i) { return view(numbers, i); },
+          [&](std::size_t i) { return degrees_[i]; }, [&](std::size_t i, std::size_t k) { return targets_[i][k]; });
+    phases = in_list(numbers);
+  }
+
+ private:
+  static std::vector<std::int32_t> walk(const SurfaceLinks& links);
+  template <class Body>
+  void for_each(Body&& body) const {
+    parallel_for(static_cast<std::int64_t>(order_.size()), 512,
+                 [&](std::int64_t i) { body(static_cast<std::size_t>(i)); });
+  }
+  template <class T>
+  std::vector<T> in_order(const std::vector<T>& list) const {
+    std::vector<T> result(list.size());
+    for_each([&](std::size_t i) { result[i] = list[order_[i]]; });
+    return result;
+  }
+  template <class T>
+  std::vector<T> in_list(const std::vector<T>& numbers) const {
+    std::vector<T> result(numbers.size());
+    for_each([&](std::size_t i) { result[order_[i]] = numbers[i]; });
+    return result;
+  }
+  Phases view(const std::vector<Phases>& phases, std::size_t i) const {
+    Phases sum{};
+    for (std::int64_t l = first_view_[i]; l < first_view_[i + 1]; ++l)
+      views_[l].add_seen(phases[views_[l].neighbour()], sum);
+    return sum;
+  }
+  double product(const std::vector<Phases>& a, const std::vector<Phases>& b) {
+    for_each([&](std::size_t i) {
+      for (std::size_t k = 0; k < 2; ++k) terms_[order_[i]][k] = fields::scalar_product(a[i][k], b[i][k]);
+    });
+    double sum = 0;
+    for (const auto& [x, y] : terms_) {
+      sum += x;
+      sum += y;
+    }
+    return sum;
+  }
+
+  std::vector<std::int32_t> order_;          // the triangles
+  std::vector<std::int64_t> first_view_{0};  // by place in the order, and behind the last one
+  std::vector<fields::LinkView<2>> views_;   // of the links of each, with places as neighbours
+  std::vector<double> degrees_;
+  std::vector<Phases> targets_;
+  std::vector<std::array<double, 2>> terms_;  // of a product, by triangle
+};
+
+std::vector<std::int32_t> PhaseSolver::walk(const SurfaceLinks& links) {
+  const std::size_t count = links.surface.triangles.size();
+  std::vector<std::int32_t> order;
+  order.reserve(count);
+  std::vector<bool> found(count);
+  const auto find = [&](std::int32_t f) {
+    if (found[f]) return;
+    found[f] = true;
+    order.push_back(f);
+  };
+  std::size_t next = 0;
+  for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(count); ++seed) {
+    find(seed);
+    for (; next < order.size(); ++next)
+      for (const SurfaceLink& link : links.at(order[next]))
+        if (link.neighbour != no_index) find(link.neighbour);
+  }
+  return order;
+}
+
 class LatticeMaker {
  public:
   LatticeMaker(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite)
@@ -71,12 +190,13 @@ class LatticeMaker {
     weigh_links(kept);
     make_anchors(kept);
     if (guide.coordinates) follow(guide);
-    diffuse();
+    PhaseSolver solver(links_, across_, degrees_, targets_);
+    phases_ = solver.diffused(pulls_);
     reach_the_rest();
-    for (int i = 0; i < smoothing_sweeps; ++i) sweep();
+    solver.smooth(phases_, smoothing_sweeps);
     if (row_stretch > 0) {
       join_rows(links_, across_, targets_, row_stretch, phases_);
-      for (int i = 0; i < sweeps_after_joining; ++i) sweep();
+      PhaseSolver(links_, across_, degrees_, targets_).smooth(phases_, sweeps_after_joining);
     }
     if (guide.coordinates) measure_distances();
     propose();
@@ -111,10 +231,8 @@ class LatticeMaker {
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
   void follow(const RowGuide& guide);
   void measure_distances();
-  Phases view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const;
-  void diffuse();
+  Phases view_of_neighbours(std::int32_t f) const;
   void reach_the_rest();
-  void sweep();
   Steps steps_of(std::int32_t f) const;
   std::vector<AreaSample> speakers() const;
   void propose();
@@ -195,21 +313,11 @@ void LatticeMaker::measure_distances() {
   });
 }
 
-Phases LatticeMaker::view_of_neighbours(const std::vector<Phases>& phases, std::int32_t f) const {
+Phases LatticeMaker::view_of_neighbours(std::int32_t f) const {
   Phases sum{};
-  for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h)
-    if (links_.of[h].neighbour != no_index) links_.of[h].add_seen(phases[links_.of[h].neighbour], sum);
-  for (const SurfaceLink& link : across_.of(f)) link.add_seen(phases[link.neighbour], sum);
+  for_each_link(links_, across_, f,
+                [&](const SurfaceLink& link) { fields::LinkView<2>(link).add_seen(phases_[link.neighbour], sum); });
   return sum;
-}
-
-void LatticeMaker::diffuse() {
-  const auto diagonal = [&](std::size_t f, std::size_t k) { return degrees_[f] + pulls_[f][k]; };
-  const auto view = [&](const std::vector<Phases>& phases, std::size_t f) {
-    return view_of_neighbours(phases, static_cast<std::int32_t>(f));
-  };
-  phases_ = fields::diffused<2>(
-      targets_, diffusion_limits, [&](const auto& body) { for_each_triangle(body); }, diagonal, view);
 }
 
 // Triangles too far from any feature take over the numbers of a neighbour, turned by the distance to it.
@@ -229,17 +337,10 @@ void LatticeMaker::reach_the_rest() {
     for (; next < queue.size(); ++next)
       for (geometry::HalfEdge h = 3 * queue[next]; h < 3 * queue[next] + 3; ++h) {
         if (links_.of[h].neighbour == no_index || reached[links_.of[h].neighbour]) continue;
-        reach(links_.of[h].neighbour, links_.of[surface_.twins[h]].seen(phases_[queue[next]]));
+        reach(links_.of[h].neighbour, fields::LinkView<2>(links_.of[surface_.twins[h]]).seen(phases_[queue[next]]));
       }
     if (!reached[seed]) reach(seed, {fields::Complex(1), fields::Complex(1)});
   }
-}
-
-void LatticeMaker::sweep() {
-  phases_ = fields::swept<2>(
-      phases_, [&](const auto& body) { for_each_triangle(body); },
-      [&](std::int32_t f) { return view_of_neighbours(phases_, f); }, [&](std::int32_t f) { return degrees_[f]; },
-      [&](std::int32_t f, std::size_t k) { return targets_[f][k]; });
 }
 
 // By the distances to the neighbours, which correct_curl has changed.
@@ -274,7 +375,7 @@ void LatticeMaker::propose() {
 
 void LatticeMaker::propose(const AreaSample& speaker, std::vector<Proposal>& proposals) const {
   const std::int32_t f = speaker.triangle;
-  const Phases view = view_of_neighbours(phases_, f);
+  const Phases view = view_of_neighbours(f);
   const double agreement = std::min(std::abs(view[0]), std::abs(view[1])) / degrees_[f];
   const auto axes = directions(f);
   std::array<double, 2> coordinates;

@@ -33,7 +33,6 @@ SurfaceLink make_link(const SurfaceLinks& links, geometry::HalfEdge h) {
     link.distance[k] =
         (links.stretch.in_direction(f, here[k]) * before - links.stretch.in_direction(g, matched) * after) / size;
   }
-  link.set_turn();
   const double across = dot(from, inward) + dot(to, beyond);
   link.weight = norm(side) / std::max(across, 1e-3 * norm(side)) * trust_in_match(cosine);
   return link;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
@@ -41,6 +42,10 @@ struct SurfaceLinks {
   BendStretch stretch;
   std::vector<SurfaceLink> of;  // from each half-edge's triangle to the one beyond it; without a neighbour at a feature
 
+  // From a triangle over its three half-edges.
+  std::span<const SurfaceLink> at(std::int32_t triangle) const {
+    return std::span(of).subspan(3 * static_cast<std::size_t>(triangle), 3);
+  }
   // Calls body(h) for one half-edge of each pair with links.
   template <class Body>
   void for_each_pair(Body&& body) const {
@@ -52,7 +57,6 @@ struct SurfaceLinks {
   void change_distances(Change&& change) {
     for_each_pair([&](geometry::HalfEdge h) {
       change(h, of[h]);
-      of[h].set_turn();
       of[surface.twins[h]] = of[h].reversed(geometry::triangle_of(h));
     });
   }

@@ -59,17 +59,27 @@ class FrameLattice::Work {
         frames_(solve_frame_field(nodes_)) {}
 
   void fit(const std::vector<bool>& held);
-  const Dislocations& dislocations() const { return dislocations_; }
+  const Dislocations& dislocations() {
+    find_lines_beside([] {});
+    return *lines_;
+  }
   surface::RowGuide guide();
   FramePoints points_inside(const solid::Surface& surface);
 
  private:
+  // Calls body(), and looks for the lattice's dislocations at the same time: body() accepts points one after the other.
+  template <class Body>
+  void find_lines_beside(Body&& body) {
+    if (lines_) return body();
+    both_at_once([&] { lines_ = find_dislocations(field_->links, field_->coordinates, background_, adjacency_); },
+                 body);
+  }
   void propose(std::size_t node, std::vector<Proposal>& proposals) const;
   Proposal agreed(const fields::ProposalIndex<Proposal>& index, const Proposal& proposal) const;
   template <class Wanted>
   std::vector<RowPoint> accept(std::span<const Vec3> fixed, Wanted&& is_wanted) const;
-  bool is_well_inside(const solid::SurfaceClearance& clearance, const Proposal& p) const {
-    return clearance.is_clear(p.point, options_.clearance * options_.size.at(p.point)) && clearance.is_inside(p.point);
+  bool is_clear(const solid::SurfaceClearance& clearance, const Proposal& p) const {
+    return clearance.is_clear(p.point, options_.clearance * options_.size.at(p.point));
   }
   double turned_share() const;
   bool is_free(const geometry::SizedPointGrid& taken, const Proposal& proposal) const;
@@ -84,13 +94,13 @@ class FrameLattice::Work {
   std::optional<LatticeField> field_;
   std::vector<Vec3> spacing_;        // of the lattice along the frames' axes, in sizes
   std::vector<Proposal> proposals_;  // the most trusted first
-  Dislocations dislocations_;
+  std::optional<Dislocations> lines_;
 };
 
 void FrameLattice::Work::fit(const std::vector<bool>& held) {
   held_ = held;
   field_.emplace(solve_lattice_field(nodes_, frames_, held));
-  dislocations_ = find_dislocations(field_->links, field_->coordinates, background_, adjacency_);
+  lines_.reset();
   spacing_.clear();
   for (const auto& [x, y, z] : field_->steps) spacing_.push_back({norm(x), norm(y), norm(z)});
   proposals_ = parallel_collect<Proposal>(
@@ -109,17 +119,24 @@ surface::RowGuide FrameLattice::Work::guide() {
   const solid::SurfaceClearance clearance(surface_);
   const auto is_beside = [&](const Vec3& p) { return !clearance.is_clear(p, beside_surface * options_.size.at(p)); };
   // Points inside are chosen, too, so that rows end at the same places on the surface and below it.
-  const auto is_wanted = [&](const Proposal& p) { return is_beside(p.point) || is_well_inside(clearance, p); };
-  for (const RowPoint& row : accept(fixed, is_wanted))
-    if (is_beside(row.at)) guide.points.push_back(row.at);
+  const auto is_wanted = [&](const Proposal& p) {
+    if (!is_clear(clearance, p)) return is_beside(p.point);
+    return (options_.clearance < beside_surface && is_beside(p.point)) || clearance.is_inside(p.point);
+  };
+  find_lines_beside([&] {
+    for (const RowPoint& row : accept(fixed, is_wanted))
+      if (is_beside(row.at)) guide.points.push_back(row.at);
+  });
   return guide;
 }
 
 FramePoints FrameLattice::Work::points_inside(const solid::Surface& surface) {
   const solid::SurfaceClearance clearance(surface);
+  const auto is_well_inside = [&](const Proposal& p) { return is_clear(clearance, p) && clearance.is_inside(p.point); };
   FramePoints result{{}, turned_share()};
-  for (const RowPoint& row : accept(surface.points, [&](const Proposal& p) { return is_well_inside(clearance, p); }))
-    result.points.push_back(row.at);
+  find_lines_beside([&] {
+    for (const RowPoint& row : accept(surface.points, is_well_inside)) result.points.push_back(row.at);
+  });
   for (std::size_t i = 0; i < result.points.size(); ++i)
     result.points[i] += jitter_of(i, options_.jitter * options_.size.at(result.points[i]), options_.seed);
   return result;
@@ -151,8 +168,12 @@ std::vector<RowPoint> FrameLattice::Work::accept(std::span<const Vec3> fixed, Wa
   geometry::SizedPointGrid taken(surface_.points.front());
   for (const Vec3& p : fixed) taken.add(p, 2 * least_spacing * options_.size.at(p));
   std::vector<RowPoint> rows;
+  // Proposals that agree exactly follow each other.
+  const Vec3* decided = nullptr;  // the last point that was taken or is not wanted
   for (const Proposal& p : proposals_) {
-    if (!is_free(taken, p) || !is_wanted(p)) continue;
+    if ((decided && p.point == *decided) || !is_free(taken, p)) continue;
+    decided = &p.point;
+    if (!is_wanted(p)) continue;
     taken.add(p.point, 2 * least_spacing * p.size);
     const auto& [x, y, z] = field_->steps[p.node];
     rows.push_back({p.point, {p.size * x, p.size * y, p.size * z}});
@@ -169,13 +190,9 @@ bool FrameLattice::Work::is_free(const geometry::SizedPointGrid& taken, const Pr
     reach += spacing * Vec3{std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
     units[k] = (1 / spacing) * axis;
   }
-  bool free = true;
   const double least = 2 * least_spacing * options_.size.least_near(proposal.size, norm(reach));
-  taken.for_each_near(proposal.point, reach, least, [&](std::int32_t i) {
-    free = maximum_norm(units, taken.points()[i] - proposal.point) >= 1;
-    return free;
-  });
-  return free;
+  return taken.all_near(proposal.point, reach, least,
+                        [&](std::int32_t i) { return maximum_norm(units, taken.points()[i] - proposal.point) >= 1; });
 }
 
 double FrameLattice::Work::turned_share() const {

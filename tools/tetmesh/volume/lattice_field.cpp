@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/fields/curl_correction.hpp"
@@ -54,6 +55,10 @@ class LatticeSolver {
   LatticeField solve() {
     for_each_node([&](std::size_t i) { measure_degree(i); });
     correct_curl();
+    views_.resize(links_.size());
+    for_each_node([&](std::size_t i) {
+      for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l) views_[l] = View(links_[l]);
+    });
     for (std::size_t i = 0; i < nodes_.surface.size(); ++i) make_anchors(i);
     diffuse();
     for (Phases& phases : phases_)
@@ -79,6 +84,10 @@ class LatticeSolver {
   std::int32_t number_of(std::int64_t link, std::size_t axis) const {
     return 3 * pair_numbers_[link] + static_cast<std::int32_t>(axis);
   }
+  using View = fields::LinkView<3>;
+  std::span<const View> views_of(std::size_t i) const {
+    return std::span(views_).subspan(nodes_.offsets[i], nodes_.offsets[i + 1] - nodes_.offsets[i]);
+  }
   Phases view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const;
   double diagonal(std::size_t i, std::size_t axis) const { return degree_[i] + anchors_[i][axis]; }
   void diffuse();
@@ -90,10 +99,11 @@ class LatticeSolver {
   const std::vector<fields::Frame>& frames_;
   const std::vector<bool>& held_;
   LatticeLinks links_;
+  std::vector<View> views_;                     // by link, with the corrected distances
   std::vector<std::int32_t> pair_numbers_;      // of each link to a later node: its number among such links
   std::vector<double> degree_;                  // of each node: the sum of the weights of its links
   std::vector<std::array<double, 3>> anchors_;  // how strongly each number is held at 1, as at a point of the lattice
-  std::vector<Phases> phases_;
+  std::vector<Phases> phases_, next_phases_;
 };
 
 void LatticeSolver::measure_degree(std::size_t i) {
@@ -111,13 +121,12 @@ void LatticeSolver::correct_curl() {
   });
   fields::Loops loops = triangles();
   add_steps_on_surface(loops);
-  const std::vector<float> correction = fields::curl_correction(distances, loops, curl_limits);
+  const std::vector<float> correction = fields::curl_correction<3>(distances, loops, curl_limits);
   for_each_node([&](std::size_t node) {
     links_.for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
       LatticeLink& t = links_[ij];
       const double longest = most_strain * norm(nodes_.points[i] - nodes_.points[t.neighbour]) / nodes_.sizes[i];
       t.correct(std::span(correction).subspan(number_of(ij, 0), 3), longest);
-      t.set_turn();
       links_[links_.between(t.neighbour, i)] = t.reversed(i);
     });
   });
@@ -130,11 +139,8 @@ fields::Loops LatticeSolver::triangles() const {
       [&](std::int64_t begin, std::int64_t end) {
         fields::Loops some;
         for (std::int64_t node = begin; node < end; ++node)
-          links_.for_each_pair_of(static_cast<std::int32_t>(node), [&](std::int32_t i, std::int64_t ij) {
-            for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il)
-              if (const std::int64_t jl = links_.between(links_[ij].neighbour, links_[il].neighbour); jl >= 0)
-                add_loops({.to_second = ij, .to_third = il, .onward = jl}, some);
-          });
+          links_.for_each_triangle_of(static_cast<std::int32_t>(node),
+                                      [&](const LinkTriangle& triangle) { add_loops(triangle, some); });
         return some;
       },
       [&](const fields::Loops& some) { loops.append(some); });
@@ -179,10 +185,10 @@ void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
 void LatticeSolver::make_anchors(std::size_t i) {
   std::array<double, 3> sum{};
   double count = 0;
-  for (const LatticeLink& t : links_.of(i)) {
-    if (!nodes_.is_on_surface(static_cast<std::size_t>(t.neighbour))) continue;
+  for (const View& view : views_of(i)) {
+    if (!nodes_.is_on_surface(static_cast<std::size_t>(view.neighbour()))) continue;
     ++count;
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += t.turn[k].real();
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += view.turn(k).real();
   }
   const SurfaceNode& node = nodes_.surface[i];
   for (std::size_t k = 0; k < 3; ++k) {
@@ -195,7 +201,7 @@ void LatticeSolver::make_anchors(std::size_t i) {
 
 Phases LatticeSolver::view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const {
   Phases sum{};
-  for (const LatticeLink& link : links_.of(i)) link.add_seen(phases[link.neighbour], sum);
+  for (const View& view : views_of(i)) view.add_seen(phases[view.neighbour()], sum);
   return sum;
 }
 
@@ -211,8 +217,8 @@ void LatticeSolver::diffuse() {
 }
 
 void LatticeSolver::sweep() {
-  phases_ = fields::swept<3>(
-      phases_, [&](const auto& body) { for_each_node(body); },
+  fields::sweep<3>(
+      phases_, next_phases_, [&](const auto& body) { for_each_node(body); },
       [&](std::size_t i) { return view_of_neighbours(phases_, i); }, [&](std::size_t i) { return degree_[i]; },
       [&](std::size_t i, std::size_t k) { return anchors_[i][k]; });
 }
@@ -239,21 +245,20 @@ std::array<Vec3, 3> LatticeSolver::steps_of(std::size_t i) const {
 }
 
 LatticeField LatticeSolver::result() {
-  LatticeField field{.links = links_, .coordinates = {}, .steps = {}, .agreement = {}};
-  field.coordinates.resize(nodes_.size());
-  field.agreement.resize(nodes_.size());
-  field.steps.resize(nodes_.size());
+  std::vector<std::array<double, 3>> coordinates(nodes_.size());
+  std::vector<std::array<Vec3, 3>> steps(nodes_.size());
+  std::vector<double> agreement(nodes_.size());
   for_each_node([&](std::size_t i) {
     const Phases view = view_of_neighbours(phases_, i);
     double least = degree_[i];
     for (std::size_t k = 0; k < 3; ++k) {
-      field.coordinates[i][k] = fields::coordinate_of(phases_[i][k]);
+      coordinates[i][k] = fields::coordinate_of(phases_[i][k]);
       least = std::min(least, std::abs(view[k]));
     }
-    field.agreement[i] = least / degree_[i];
-    field.steps[i] = steps_of(i);
+    agreement[i] = least / degree_[i];
+    steps[i] = steps_of(i);
   });
-  return field;
+  return {std::move(links_), std::move(coordinates), std::move(steps), std::move(agreement)};
 }
 
 }  // namespace

@@ -56,7 +56,6 @@ LatticeLink LatticeLinks::make(const std::vector<fields::Frame>& frames, std::si
     const Vec3 mean = 0.5 * (frames[i][k] + (made.flipped[k] ? -there : there));
     made.distance[k] = dot(mean, back);
   }
-  made.set_turn();
   return made;
 }
 

@@ -42,7 +42,22 @@ class LatticeLinks {
   template <class Body>
   void for_each_pair_of(std::int32_t i, Body&& body) const {
     for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l)
-      if (links_[l].neighbour > i) body(i, l);
+      if (nodes_.links[l].node > i) body(i, l);
+  }
+  // Calls body(triangle) for the triangles of which the node is the lowest.
+  template <class Body>
+  void for_each_triangle_of(std::int32_t i, Body&& body) const {
+    for_each_pair_of(i, [&](std::int32_t, std::int64_t ij) {
+      const std::int32_t j = nodes_.links[ij].node;
+      std::int64_t jl = nodes_.offsets[j];
+      // Links ascend by their nodes.
+      for (std::int64_t il = ij + 1; il < nodes_.offsets[i + 1]; ++il) {
+        while (jl < nodes_.offsets[j + 1] && nodes_.links[jl].node < nodes_.links[il].node) ++jl;
+        if (jl == nodes_.offsets[j + 1]) return;
+        if (nodes_.links[jl].node == nodes_.links[il].node)
+          body(LinkTriangle{.to_second = ij, .to_third = il, .onward = jl});
+      }
+    });
   }
   // Whether the axes are the same ones again after a walk around the triangle, which no frame singularity pierces then.
   bool is_regular(const LinkTriangle& triangle) const;
