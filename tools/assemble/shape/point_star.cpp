@@ -122,9 +122,12 @@ PointStar::Measures PointStar::measured(const Vec3& at) const {
   return measures;
 }
 
-bool PointStar::exceeds(const Vec3& at, double bound) const {
-  for (std::size_t i = 0; i < terms_.size(); ++i)
-    if (!(value(i, at) > bound)) return false;
+bool PointStar::exceeds(const Vec3& at, double bound, std::vector<double>& values) const {
+  values.resize(terms_.size());
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    values[i] = value(i, at);
+    if (!(values[i] > bound)) return false;
+  }
   return true;
 }
 
@@ -183,15 +186,14 @@ struct Linearization {
   std::vector<Vec3> gradients;
   double worst = 0;
 
-  void compute(const PointStar& star, const Vec3& at, const Freedom& freedom) {
-    values.resize(star.size());
-    gradients.resize(star.size());
+  // `values` are those at the point.
+  void find_worst() {
     worst = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      values[i] = star.value(i, at);
-      gradients[i] = freedom.allowed(star.gradient(i, at));
-      worst = std::min(worst, values[i]);
-    }
+    for (const double value : values) worst = std::min(worst, value);
+  }
+  void find_gradients(const PointStar& star, const Vec3& at, const Freedom& freedom) {
+    gradients.resize(star.size());
+    for (std::size_t i = 0; i < star.size(); ++i) gradients[i] = freedom.allowed(star.gradient(i, at));
   }
 
   // Where along `direction` another corner would become the worst, if all were linear.
@@ -220,9 +222,13 @@ bool is_direction(const Vec3& sum, std::span<const Vec3> gradients) {
 Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom) {
   Linearization here;
   std::vector<Vec3> active;
-  here.compute(star, start, freedom);
+  here.values.resize(star.size());
+  for (std::size_t i = 0; i < star.size(); ++i) here.values[i] = star.value(i, start);
+  here.find_worst();
   Placement best{start, here.worst};
   if (freedom.kind == Freedom::Kind::none) return best;
+  here.find_gradients(star, start, freedom);
+  std::vector<double> values;  // at a place that is tried
   double band = widest_band;
   for (int step = 0; step < steps; ++step) {
     active.clear();
@@ -234,10 +240,11 @@ Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const
       double length = here.reach(direction);
       for (int i = 0; i <= halvings; ++i, length /= 2) {
         const Vec3 at = best.at + direction * length;
-        if (!star.exceeds(at, best.worst + least_gain)) continue;
-        const double worst = star.worst(at);
-        gain = worst - best.worst;
-        best = {at, worst};
+        if (!star.exceeds(at, best.worst + least_gain, values)) continue;
+        here.values.swap(values);
+        here.find_worst();
+        gain = here.worst - best.worst;
+        best = {at, here.worst};
         break;
       }
     }
@@ -246,7 +253,7 @@ Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const
       band /= 10;
       continue;
     }
-    here.compute(star, best.at, freedom);
+    here.find_gradients(star, best.at, freedom);
   }
   return best;
 }

@@ -55,8 +55,8 @@ class PointStar {
   // The mean plus the pull.
   double score_of(const Measures& measures) const { return measures.mean + dot(pull_, measures.at - start_); }
   double score(const Vec3& at) const { return score_of(measured(at)); }
-  // Whether worst(at) > bound; stops at the first corner that is not above it.
-  bool exceeds(const Vec3& at, double bound) const;
+  // Whether worst(at) > bound; stops at the first corner that is not above it. Fills `values` with what it has seen.
+  bool exceeds(const Vec3& at, double bound, std::vector<double>& values) const;
   // False if the move takes a value below its floor, or further below it.
   bool keeps_floors(const Vec3& before, const Vec3& at) const;
   bool keeps_floors(const Measures& before, const Measures& after) const;
