@@ -16,10 +16,18 @@ namespace hexpipe {
 template <std::size_t N>
 using VertexKey = std::array<Vertex, N>;
 
+// By a sorting network: it has no branches that a processor could guess wrong.
 template <std::size_t N>
-VertexKey<N> key_of(std::array<Vertex, N> vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
+VertexKey<N> key_of(std::array<Vertex, N> v) {
+  static_assert(N >= 2 && N <= 4);
+  const auto order = [&](std::size_t i, std::size_t k) {
+    const Vertex low = std::min(v[i], v[k]), high = std::max(v[i], v[k]);
+    v[i] = low, v[k] = high;
+  };
+  order(0, 1);
+  if constexpr (N == 3) order(1, 2), order(0, 1);
+  if constexpr (N == 4) order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+  return v;
 }
 inline VertexKey<2> edge_key(Vertex a, Vertex b) {
   return {std::min(a, b), std::max(a, b)};
@@ -38,10 +46,20 @@ struct VertexKeyHash {
   }
 };
 
-template <std::size_t N, class T>
-using KeyMap = tsl::robin_map<VertexKey<N>, T, VertexKeyHash<N>>;
+// The == of std::array calls memcmp, which takes longer than the rest of a look-up.
 template <std::size_t N>
-using KeySet = tsl::robin_set<VertexKey<N>, VertexKeyHash<N>>;
+struct SameVertexKey {
+  bool operator()(const VertexKey<N>& a, const VertexKey<N>& b) const {
+    bool same = true;
+    for (std::size_t i = 0; i < N; ++i) same &= a[i] == b[i];
+    return same;
+  }
+};
+
+template <std::size_t N, class T>
+using KeyMap = tsl::robin_map<VertexKey<N>, T, VertexKeyHash<N>, SameVertexKey<N>>;
+template <std::size_t N>
+using KeySet = tsl::robin_set<VertexKey<N>, VertexKeyHash<N>, SameVertexKey<N>>;
 
 inline KeySet<2> ridges_of(const TetMesh& mesh) {
   KeySet<2> keys;

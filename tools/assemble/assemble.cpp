@@ -67,6 +67,7 @@ bool closes_a_hole(const hybrid::SurfaceTags& tags, const Candidates& candidates
   cell.kind = candidates.kind[candidate];
   cell.corners = candidates.vertices[candidate];
   for (int i = 0; i < cell.quad_count(); ++i) {
+    if (!tags.is_on_surface(cell.quad(i))) continue;
     int tagged = 0;
     for (int diagonal = 0; diagonal < 2; ++diagonal)
       for (const auto& half : triangles_of(cell.quad(i), diagonal)) tagged += tags.contains(half);

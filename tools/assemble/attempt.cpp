@@ -74,7 +74,7 @@ std::vector<CandidateIndex> owners_of_apexes(const hybrid::HybridMesh& mesh,
   for (const auto c : indices<CellIndex>(mesh.cell_count())) {
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive || cell.candidate != no_index) continue;
-    const CandidateIndex owner = mesh.cell(mesh.partner_at(cell.quad(0), c)).candidate;
+    const CandidateIndex owner = mesh.cell(mesh.partner_at(c, 0)).candidate;
     owner_of_point[cell.corners[4]] = owner;
     if (is_worse(mesh, cell.kind, std::span(cell.corners).first(5), shape::poor_quality))
       owners_of_poor.push_back(owner);

@@ -178,6 +178,7 @@ void number_quads(const hybrid::BoundaryQuads& boundary, const Candidates& candi
                   const std::vector<CandidateIndex>& chosen, const Participants& participants, const Worth& worth,
                   ExchangeProblem& problem) {
   KeyMap<4, QuadIndex> numbers;
+  numbers.reserve(3 * participants.size());
   for (const CandidateIndex i : participants) {
     auto& row = problem.quads.emplace_back();
     row.fill(no_index);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/mesh/tet_mesh.hpp"
 
@@ -13,16 +14,33 @@ namespace {
 constexpr std::int32_t most_pushed_out = 3;
 // The temperature stays the same for this many moves: computing it takes as long as a short move.
 constexpr std::int64_t moves_a_temperature = 256;
+// No change is as large as this.
+constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
 ExchangeSearch::ExchangeSearch(const ExchangeProblem& problem, const graph::IndependentSet& start, Random random)
-    : problem_(problem), state_(problem.graph), random_(random), cells_at_(problem.fixed_cells) {
-  for (const auto quad : indices<QuadIndex>(cells_at_.size()))
-    if (cells_at_[quad] == 1) open_cost_ += problem.cost[quad];
-  for (const auto participant : as_indices<Participant>(start)) enter(participant);
-  for (const auto i : indices<Participant>(problem.stays.size()))
+    : problem_(problem),
+      random_(random),
+      is_chosen_(problem.stays.size(), 0),
+      conflicts_(problem.stays.begin(), problem.stays.end()),
+      rivals_(problem.stays.size(), 0) {
+  cells_.reserve(problem.quads.size());
+  for (const auto i : indices<Participant>(problem.quads.size())) {
+    cells_.push_back({problem.graph.weights[i], problem.usual[i], problem.quads[i], unknown});
     if (!problem.stays[i]) movable_.push_back(i);
+  }
+  quads_.reserve(problem.cost.size());
+  for (const auto quad : indices<QuadIndex>(problem.cost.size())) {
+    quads_.push_back({problem.cost[quad], problem.fixed_cells[quad]});
+    if (problem.fixed_cells[quad] == 1) open_cost_ += problem.cost[quad];
+  }
+  owners_ = VertexItemsOf<Participant>(quads_.size(), [&](auto&& visit) {
+    for (const auto i : indices<Participant>(cells_.size()))
+      for (const QuadIndex quad : cells_[i].quads)
+        if (quad != no_index) visit(quad, i);
+  });
+  for (const auto participant : as_indices<Participant>(start)) count_in(participant), choose(participant);
   best_value_ = value();
 }
 
@@ -32,36 +50,124 @@ void ExchangeSearch::run(std::int64_t moves, const mwis::local_search::Cooling& 
   for (std::int64_t i = 0; i < moves; ++i) {
     if (i % moves_a_temperature == 0) temperature = cooling.at(static_cast<double>(i) / static_cast<double>(moves));
     const Participant participant = movable_[random_.below(movable_.size())];
-    if (state_.tightness(participant) > most_pushed_out) continue;
-    move(participant, temperature * problem_.usual[participant] * std::log(random_.uniform()));
+    if (conflicts_[participant] > most_pushed_out) continue;
+    const double least_change = temperature * cells_[participant].usual * std::log(random_.uniform());
+    if (static_cast<double>(change_of(participant)) >= least_change) carry_out(participant);
   }
 }
 
-void ExchangeSearch::move(Participant participant, double least_change) {
-  const std::int64_t before = value();
-  step_.clear();
-  freed_.clear();
-  if (state_.contains(participant))
-    remove(participant);
-  else
-    push(participant);
-  use_freed_room();
-  if (static_cast<double>(value() - before) >= least_change)
-    keep();
-  else
-    take_back();
+std::int64_t ExchangeSearch::gain_of(Participant participant) const {
+  const Cell& cell = cells_[participant];
+  std::int64_t gain = cell.weight;
+  for (const QuadIndex quad : cell.quads)
+    if (quad != no_index) gain += quads_[quad].cells == 0 ? -quads_[quad].cost : quads_[quad].cost;
+  return gain;
 }
 
-void ExchangeSearch::push(Participant participant) {
-  pushed_out_.clear();
-  state_.for_each_chosen_neighbour(participant, [&](std::int32_t u) { pushed_out_.emplace_back(u); });
-  for (const Participant u : pushed_out_) remove(u);
-  add(participant);
+void ExchangeSearch::count_in(Participant participant) {
+  const Cell& cell = cells_[participant];
+  weight_ += cell.weight;
+  for (const QuadIndex quad : cell.quads)
+    if (quad != no_index) open_cost_ += ++quads_[quad].cells == 1 ? quads_[quad].cost : -quads_[quad].cost;
+}
+
+void ExchangeSearch::count_out(Participant participant) {
+  const Cell& cell = cells_[participant];
+  weight_ -= cell.weight;
+  for (const QuadIndex quad : cell.quads)
+    if (quad != no_index) open_cost_ += --quads_[quad].cells == 1 ? quads_[quad].cost : -quads_[quad].cost;
+}
+
+void ExchangeSearch::choose(Participant participant) {
+  is_chosen_[participant] = 1;
+  cells_[participant].change_without = unknown;
+  count_conflicts(participant, 1);
+}
+
+void ExchangeSearch::leave(Participant participant) {
+  is_chosen_[participant] = 0;
+  count_conflicts(participant, -1);
+}
+
+void ExchangeSearch::count_conflicts(Participant participant, std::int32_t more) {
+  for (const Participant u : neighbours_of(participant)) {
+    if (conflicts_[u] == 1) forget_change_at(u);
+    conflicts_[u] += more;
+    rivals_[u] ^= participant;
+    if (conflicts_[u] == 1) forget_change_at(u);
+  }
+}
+
+// For a chosen participant, or for the only one that keeps this one out.
+void ExchangeSearch::forget_change_at(Participant participant) {
+  cells_[contains(participant) ? participant : Participant(rivals_[participant])].change_without = unknown;
+}
+
+void ExchangeSearch::forget_changes_at_quads(Participant participant) {
+  for (const QuadIndex quad : cells_[participant].quads) {
+    if (quad == no_index) continue;
+    for (const Participant owner : owners_.at(quad))
+      if (contains(owner) || conflicts_[owner] == 1) forget_change_at(owner);
+  }
+}
+
+// What the value changes by if a move takes this one in or out. The change for a chosen one is kept: most moves meet
+// these, and find all around as it was.
+std::int64_t ExchangeSearch::change_of(Participant participant) {
+  if (contains(participant) && cells_[participant].change_without != unknown) return cells_[participant].change_without;
+  const std::int64_t before = value();
+  plan(participant);
+  const std::int64_t change = value() - before;
+  drop_plan();
+  if (contains(participant)) cells_[participant].change_without = change;
+  return change;
+}
+
+// Fills out_ and in_, and counts quads and weight as they will be.
+void ExchangeSearch::plan(Participant participant) {
+  in_.clear();
+  find_those_out(participant);
+  find_freed();
+  for (const Participant u : out_) count_out(u);
+  if (!contains(participant)) take_in(participant);
+  use_freed_room();
+}
+
+// A chosen participant goes out; another one pushes those in conflict with it out.
+void ExchangeSearch::find_those_out(Participant participant) {
+  out_.clear();
+  if (contains(participant)) return out_.push_back(participant);
+  std::int32_t left = conflicts_[participant];
+  for (auto u = neighbours_of(participant).begin(); left > 0; ++u) {
+    if (!contains(*u)) continue;
+    out_.push_back(*u);
+    --left;
+  }
+}
+
+// Participants in conflict with those that go out, and with no others.
+void ExchangeSearch::find_freed() {
+  freed_.clear();
+  if (out_.size() == 1) {
+    for (const Participant u : neighbours_of(out_.front()))
+      if (conflicts_[u] == 1) freed_.push_back(u);
+    return;
+  }
+  for (const Participant out : out_)
+    for (const Participant u : neighbours_of(out))
+      if (--conflicts_[u] == 0) freed_.push_back(u);
+  for (const Participant out : out_)
+    for (const Participant u : neighbours_of(out)) ++conflicts_[u];
+}
+
+void ExchangeSearch::take_in(Participant participant) {
+  count_in(participant);
+  in_.push_back(participant);
+  std::erase_if(freed_, [&](Participant u) { return u == participant || are_in_conflict(participant, u); });
 }
 
 void ExchangeSearch::use_freed_room() {
   while (true) {
-    std::erase_if(freed_, [&](Participant u) { return state_.contains(u) || state_.tightness(u) > 0; });
     Participant best = no_index;
     std::int64_t most = 0;
     for (const Participant u : freed_)
@@ -70,45 +176,22 @@ void ExchangeSearch::use_freed_room() {
         best = u;
       }
     if (best == no_index) return;
-    add(best);
+    take_in(best);
   }
 }
 
-std::int64_t ExchangeSearch::gain_of(Participant participant) const {
-  std::int64_t gain = problem_.graph.weights[participant];
-  for (const QuadIndex quad : problem_.quads[participant])
-    if (quad != no_index) gain += cells_at_[quad] == 0 ? -problem_.cost[quad] : problem_.cost[quad];
-  return gain;
+void ExchangeSearch::drop_plan() {
+  for (const Participant u : in_) count_out(u);
+  for (const Participant u : out_) count_in(u);
 }
 
-void ExchangeSearch::enter(Participant participant) {
-  state_.add(participant);
-  for (const QuadIndex quad : problem_.quads[participant])
-    if (quad != no_index) open_cost_ += ++cells_at_[quad] == 1 ? problem_.cost[quad] : -problem_.cost[quad];
-}
-
-void ExchangeSearch::add(Participant participant) {
-  enter(participant);
-  step_.push_back(participant);
-}
-
-void ExchangeSearch::remove(Participant participant) {
-  state_.remove(participant, [&](std::int32_t u) {
-    if (state_.tightness(u) == 0 && !problem_.stays[Participant(u)]) freed_.emplace_back(u);
-  });
-  for (const QuadIndex quad : problem_.quads[participant])
-    if (quad != no_index) open_cost_ += --cells_at_[quad] == 1 ? problem_.cost[quad] : -problem_.cost[quad];
-  step_.push_back(participant);
-}
-
-void ExchangeSearch::take_back() {
-  for (std::size_t i = step_.size(); i-- > 0;) {
-    const Participant participant = step_[i];
-    if (state_.contains(participant))
-      remove(participant);
-    else
-      enter(participant);
-  }
+void ExchangeSearch::carry_out(Participant participant) {
+  plan(participant);
+  for (const Participant u : out_) leave(u);
+  for (const Participant u : in_) choose(u);
+  for (const Participant u : out_) forget_changes_at_quads(u);
+  for (const Participant u : in_) forget_changes_at_quads(u);
+  keep();
 }
 
 void ExchangeSearch::keep() {
@@ -117,7 +200,8 @@ void ExchangeSearch::keep() {
     since_best_.clear();
     return;
   }
-  since_best_.insert(since_best_.end(), step_.begin(), step_.end());
+  since_best_.insert(since_best_.end(), out_.begin(), out_.end());
+  since_best_.insert(since_best_.end(), in_.begin(), in_.end());
   if (since_best_.size() > 2 * movable_.size() + 64) forget_what_came_back();
 }
 
@@ -136,17 +220,29 @@ void ExchangeSearch::forget_what_came_back() {
 }
 
 graph::IndependentSet ExchangeSearch::best() const {
-  IndexedVector<Participant, std::uint8_t> toggled(problem_.stays.size(), 0);
-  for (const Participant participant : since_best_) toggled[participant] ^= 1;
+  IndexedVector<Participant, std::uint8_t> is_in_best = is_chosen_;
+  for (const Participant participant : since_best_) is_in_best[participant] ^= 1;
   graph::IndependentSet set;
-  for (const auto i : indices<Participant>(toggled.size()))
-    if (state_.contains(i) != (toggled[i] != 0)) set.push_back(i);
+  for (const auto i : indices<Participant>(is_in_best.size()))
+    if (is_in_best[i] != 0) set.push_back(i);
   return set;
 }
 
 bool ExchangeSearch::check() const {
-  const ExchangeSearch fresh(problem_, state_.to_set(), random_);
-  return state_.check() && fresh.cells_at_ == cells_at_ && fresh.open_cost_ == open_cost_;
+  graph::IndependentSet chosen;
+  for (const auto i : indices<Participant>(is_chosen_.size())) {
+    if (!contains(i)) continue;
+    if (std::ranges::any_of(chosen, [&](std::int32_t u) { return are_in_conflict(i, Participant(u)); })) return false;
+    chosen.push_back(i);
+  }
+  ExchangeSearch fresh(problem_, chosen, random_);
+  const auto is_known_change_right = [&](std::int32_t i) {
+    const Participant participant(i);
+    const std::int64_t known = cells_[participant].change_without;
+    return known == unknown || known == fresh.change_of(participant);
+  };
+  return fresh.conflicts_ == conflicts_ && fresh.rivals_ == rivals_ && fresh.quads_ == quads_ &&
+         fresh.value() == value() && std::ranges::all_of(chosen, is_known_change_right);
 }
 
 }  // namespace hexpipe::assemble::choice

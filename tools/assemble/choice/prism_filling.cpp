@@ -66,12 +66,23 @@ std::array<Quad, PrismTopology::quads.size()> quads_of_prism(const Candidates& c
   return {cell.quad(0), cell.quad(1), cell.quad(2)};
 }
 
+// The cells that have a vertex of a prism. The others are in conflict with none, and have none of their quads.
+Candidates cells_beside(const Candidates& prisms, const Candidates& cells, std::size_t vertices) {
+  std::vector<bool> is_at_prism(vertices);
+  for (const auto i : indices<CandidateIndex>(prisms.size()))
+    for (const Vertex v : prisms.corners_of(i)) is_at_prism[v] = true;
+  std::vector<CandidateIndex> beside;
+  for (const auto i : indices<CandidateIndex>(cells.size()))
+    if (std::ranges::any_of(cells.corners_of(i), [&](Vertex v) { return is_at_prism[v]; })) beside.push_back(i);
+  return select(cells, beside);
+}
+
 // Takes prisms one by one. Each time it takes the prism that closes the most quads, less the quads that it opens; among
 // several, the prism of the best quality. It also takes prisms that close as many as they open, because a prism is
 // better than its tets.
 class Filling {
  public:
-  // `all` holds the chosen cells and, from `first` on, the prisms; `graph` their conflicts.
+  // `all` holds the chosen cells beside the prisms and, from `first` on, the prisms; `graph` their conflicts.
   Filling(const hybrid::BoundaryQuads& boundary, const Candidates& all, const graph::ConflictGraph& graph,
           std::size_t first)
       : boundary_(boundary), all_(all), graph_(graph), barred_(all.size()) {
@@ -151,11 +162,12 @@ PrismFilling fill_with_prisms(const TetMesh& mesh, const hybrid::BoundaryQuads& 
   PrismFilling result{select(candidates, selection.chosen())};
   const Candidates prisms = prisms_between(mesh, selection.mesh());
   if (prisms.size() == 0) return result;
-  Candidates all = result.cells;
+  Candidates all = cells_beside(prisms, result.cells, mesh.points.size());
+  const std::size_t first_prism = all.size();
   append(all, prisms);
   const graph::ConflictGraph graph =
       conflicts::conflict_graph(all, {.weight = conflicts::WeightKind::count, .weight_scale = 1}, source);
-  const auto taken = Filling(boundary, all, graph, result.cells.size()).run();
+  const auto taken = Filling(boundary, all, graph, first_prism).run();
   append(result.cells, select(all, taken));
   result.prisms = static_cast<std::int64_t>(taken.size());
   return result;

@@ -35,38 +35,52 @@ void claim_interior(const InputNames& names, const Candidates& candidates, Candi
 
 // The facets that no two of the interior tets share: the skin of what the cell replaces. There are at most 15 tets, for
 // which a quadratic search is the fastest.
-std::vector<VertexKey<3>> skin_of(const TetMesh& mesh, std::span<const TetIndex> tets) {
-  std::vector<VertexKey<3>> skin;
-  for (TetIndex t : tets)
+class Skin {
+ public:
+  void collect(const TetMesh& mesh, std::span<const TetIndex> tets);
+  std::size_t size() const { return facets_.size(); }
+  bool has(const Triangle& triangle) const { return place_of(key_of(triangle)) != facets_.size(); }
+  bool has_both(const std::array<Triangle, 2>& triangles) const { return has(triangles[0]) && has(triangles[1]); }
+
+ private:
+  std::size_t place_of(const VertexKey<3>& key) const {
+    std::size_t place = 0;
+    while (place < facets_.size() && !SameVertexKey<3>()(facets_[place], key)) ++place;
+    return place;
+  }
+
+  std::vector<VertexKey<3>> facets_;
+  std::vector<Tet> tets_;
+};
+
+void Skin::collect(const TetMesh& mesh, std::span<const TetIndex> tets) {
+  facets_.clear();
+  facets_.reserve(4 * tets.size());
+  // They lie apart from each other, and reading them takes most of the time: less if all are asked for at once.
+  tets_.clear();
+  for (const TetIndex t : tets) tets_.push_back(mesh.tets[t]);
+  for (const Tet& tet : tets_)
     for (const auto& f : TetTopology::triangles) {
-      const auto key = key_of(Triangle{mesh.tets[t][f[0]], mesh.tets[t][f[1]], mesh.tets[t][f[2]]});
-      const auto twin = std::find(skin.begin(), skin.end(), key);
-      if (twin == skin.end()) {
-        skin.push_back(key);
+      const auto key = key_of(Triangle{tet[f[0]], tet[f[1]], tet[f[2]]});
+      if (const std::size_t twin = place_of(key); twin == facets_.size()) {
+        facets_.push_back(key);
       } else {
-        *twin = skin.back();
-        skin.pop_back();
+        facets_[twin] = facets_.back();
+        facets_.pop_back();
       }
     }
-  return skin;
-}
-
-bool contains_all(const std::vector<VertexKey<3>>& skin, std::span<const Triangle> triangles) {
-  return std::all_of(triangles.begin(), triangles.end(),
-                     [&](const Triangle& t) { return std::find(skin.begin(), skin.end(), key_of(t)) != skin.end(); });
 }
 
 // Finds each facet of the cell on the skin, and each quad's diagonal. False if the skin is not the cell's.
 template <class Topology>
-bool match_skin(const std::vector<VertexKey<3>>& skin, hybrid::HybridCell& cell) {
+bool match_skin(const Skin& skin, hybrid::HybridCell& cell) {
   if (skin.size() != Topology::triangles.size() + 2 * Topology::quads.size()) return false;
-  for (const auto& f : Topology::triangles) {
-    const Triangle triangle{cell.corners[f[0]], cell.corners[f[1]], cell.corners[f[2]]};
-    if (!contains_all(skin, std::span(&triangle, 1))) return false;
-  }
+  for (const auto& f : Topology::triangles)
+    if (!skin.has({cell.corners[f[0]], cell.corners[f[1]], cell.corners[f[2]]})) return false;
   for (int i = 0; i < static_cast<int>(Topology::quads.size()); ++i) {
-    const bool first = contains_all(skin, triangles_of(cell.quad(i), 0));
-    if (!first && !contains_all(skin, triangles_of(cell.quad(i), 1))) return false;
+    const Quad quad = cell.quad(i);
+    const bool first = skin.has_both(triangles_of(quad, 0));
+    if (!first && !skin.has_both(triangles_of(quad, 1))) return false;
     cell.inner_diagonal[i] = first ? 0 : 1;
   }
   return true;
@@ -74,12 +88,13 @@ bool match_skin(const std::vector<VertexKey<3>>& skin, hybrid::HybridCell& cell)
 
 int quad_with_vertices(const hybrid::HybridCell& cell, const VertexKey<4>& key) {
   for (int i = 0; i < cell.quad_count(); ++i)
-    if (key_of(cell.quad(i)) == key) return i;
+    if (SameVertexKey<4>()(key_of(cell.quad(i)), key)) return i;
   return -1;
 }
 
-// The cell that the candidate's tets form, if they do.
-std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates& candidates, CandidateIndex candidate) {
+// The cell that the candidate's tets form, if they do. `skin` is room for this.
+std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates& candidates, CandidateIndex candidate,
+                                          Skin& skin) {
   const auto interior = candidates.interior_tets_of(candidate);
   if (interior.empty() || candidates.kind[candidate] == CellKind::tet) return std::nullopt;
   hybrid::HybridCell cell;
@@ -89,7 +104,7 @@ std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates&
   cell.region = mesh.tet_tags[interior.front()];
   for (TetIndex t : interior)
     if (mesh.tet_tags[t] != cell.region) return std::nullopt;
-  const auto skin = skin_of(mesh, interior);
+  skin.collect(mesh, interior);
   if (!with_topology(cell.kind, [&](auto topology) { return match_skin<decltype(topology)>(skin, cell); }))
     return std::nullopt;
   for (TetIndex t : candidates.boundary_tets_of(candidate)) {
@@ -100,39 +115,39 @@ std::optional<hybrid::HybridCell> cell_of(const TetMesh& mesh, const Candidates&
   return cell;
 }
 
-// The chosen cells at a quad: a third one is an error, and so is another cyclic order.
-struct QuadOwner {
-  CellIndex cell;
-  Quad quad;
-  CellIndex partner = no_index;
-};
-
-void pair_quads(const InputNames& names, const ChosenCells& cells, KeyMap<4, QuadOwner>& owners) {
-  for (const auto c : indices<CellIndex>(cells.size()))
-    for (int i = 0; i < cells[c].quad_count(); ++i) {
-      const Quad quad = cells[c].quad(i);
-      auto [entry, added] = owners.try_emplace(key_of(quad), QuadOwner{c, quad});
-      if (added) continue;
-      QuadOwner& owner = entry.value();
-      if (owner.partner != no_index || !same_diagonals(owner.quad, quad))
-        fail_conflict(names, cells[owner.cell].candidate, cells[c].candidate, "cross at a quad");
-      owner.partner = c;
+// The quads of the chosen cells. A third cell at a quad is an error, and so is another cyclic order.
+hybrid::CellQuads pair_quads(const InputNames& names, std::size_t vertices, const ChosenCells& cells) {
+  hybrid::CellQuads quads(vertices);
+  quads.reserve(cells.size(), 6 * cells.size());
+  for (const auto c : indices<CellIndex>(cells.size())) {
+    std::array<VertexKey<4>, 6> room;
+    const auto keys = cells[c].quad_keys(room);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const auto [first, second] = quads.cells_at(keys[i]);
+      if (first == no_index) continue;
+      const Quad other = cells[first].quad(quad_with_vertices(cells[first], keys[i]));
+      if (second != no_index || !same_diagonals(other, cells[c].quad(static_cast<int>(i))))
+        fail_conflict(names, cells[first].candidate, cells[c].candidate, "cross at a quad");
     }
+    quads.add(c, keys);
+  }
+  return quads;
 }
 
-void absorb_slivers(const InputNames& names, const hybrid::SurfaceTags& tags, const KeyMap<4, QuadOwner>& owners,
+void absorb_slivers(const InputNames& names, const hybrid::SurfaceTags& tags, const hybrid::CellQuads& quads,
                     ChosenCells& cells, Claims& claims) {
-  for (auto& cell : cells)
+  for (const auto c : indices<CellIndex>(cells.size())) {
+    hybrid::HybridCell& cell = cells[c];
     for (int i = 0; i < cell.quad_count(); ++i) {
       TetIndex& sliver = cell.sliver[i];
       if (sliver == no_index) continue;
       if (claims.owner[sliver] != no_index) fail_conflict(names, claims.owner[sliver], cell.candidate, "share a tet");
-      const bool alone = owners.at(key_of(cell.quad(i))).partner == no_index;
-      if (alone && tags.covers_partly(cell.quad(i), cell.outer_diagonal(i)))
+      if (quads.partner(c, i) == no_index && tags.covers_partly(cell.quad(i), cell.outer_diagonal(i)))
         sliver = no_index;
       else
         claims.absorbed[sliver] = 1;
     }
+  }
 }
 
 // At a quad of two cells there is no tet between them, and in two regions there is an interface.
@@ -170,12 +185,12 @@ KeyMap<2, CandidateIndex> check_quads(const InputNames& names, const hybrid::Hyb
   for (const auto c : indices<CellIndex>(mesh.cell_count()))
     for (int i = 0; i < mesh.cell(c).quad_count(); ++i) {
       const hybrid::HybridCell& cell = mesh.cell(c);
-      const Quad quad = cell.quad(i);
-      if (const CellIndex partner = mesh.partner_at(quad, c); partner != no_index) {
+      if (const CellIndex partner = mesh.partner_at(c, i); partner != no_index) {
         check_pair(names, mesh, tags, {c, i}, partner);
         continue;
       }
       if (!faces_tets(names, mesh, tags, {c, i})) continue;
+      const Quad quad = cell.quad(i);
       const int diagonal = cell.outer_diagonal(i);
       const auto [other, added] = diagonals.try_emplace(edge_key(quad[diagonal], quad[diagonal + 2]), cell.candidate);
       if (!added) fail_conflict(names, other->second, cell.candidate, "cross at an edge");
@@ -185,10 +200,15 @@ KeyMap<2, CandidateIndex> check_quads(const InputNames& names, const hybrid::Hyb
 
 // No cell has an edge that is the diagonal of an open quad.
 void check_edges(const InputNames& names, const hybrid::HybridMesh& mesh, const KeyMap<2, CandidateIndex>& diagonals) {
+  // Most vertices are at none.
+  std::vector<bool> is_at_diagonal(mesh.points.size());
+  for (const auto& [diagonal, candidate] : diagonals)
+    for (const Vertex v : diagonal) is_at_diagonal[v] = true;
   for (const auto c : indices<CellIndex>(mesh.cell_count()))
     with_topology(mesh.cell(c).kind, [&](auto topology) {
       const auto& corners = mesh.cell(c).corners;
       for (const auto& e : decltype(topology)::edges) {
+        if (!is_at_diagonal[corners[e[0]]] || !is_at_diagonal[corners[e[1]]]) continue;
         const auto found = diagonals.find(edge_key(corners[e[0]], corners[e[1]]));
         if (found != diagonals.end()) fail_conflict(names, found->second, mesh.cell(c).candidate, "cross at an edge");
       }
@@ -210,7 +230,8 @@ std::vector<CandidateIndex> all_of(const Candidates& candidates) {
 }
 
 bool is_formed_by_its_tets(const TetMesh& mesh, const Candidates& candidates, CandidateIndex candidate) {
-  return cell_of(mesh, candidates, candidate).has_value();
+  Skin skin;
+  return cell_of(mesh, candidates, candidate, skin).has_value();
 }
 
 namespace {
@@ -222,24 +243,22 @@ hybrid::HybridMesh select_cells(const TetMesh& mesh, const hybrid::SurfaceTags& 
   claims.absorbed.resize(mesh.tets.size());
   ChosenCells cells;
   cells.reserve(chosen.size());
+  Skin skin;
   for (CandidateIndex candidate : chosen) {
     claim_interior(names, candidates, candidate, claims);
-    const auto cell = cell_of(mesh, candidates, candidate);
+    const auto cell = cell_of(mesh, candidates, candidate, skin);
     if (!cell)
       throw DataError::at(names.candidates,
                           "expected candidates of this mesh, found candidate {} whose tets do not form it",
                           title_of(names, candidate));
     cells.push_back(*cell);
   }
-  KeyMap<4, QuadOwner> owners;
-  owners.reserve(4 * cells.size());
-  pair_quads(names, cells, owners);
-  absorb_slivers(names, tags, owners, cells, claims);
+  hybrid::CellQuads quads = pair_quads(names, mesh.points.size(), cells);
+  absorb_slivers(names, tags, quads, cells, claims);
 
   std::vector<bool> removed(mesh.tets.size());
   for (const auto t : indices<TetIndex>(removed.size())) removed[t] = claims.owner[t] != no_index || claims.absorbed[t];
-  hybrid::HybridMesh result(mesh, removed);
-  for (const auto& cell : cells) result.add_cell(cell);
+  hybrid::HybridMesh result(mesh, removed, std::move(cells), std::move(quads));
   check_edges(names, result, check_quads(names, result, tags));
   return result;
 }
@@ -251,8 +270,8 @@ Selection::Selection(const TetMesh& mesh, const hybrid::SurfaceTags& tags, const
     : choice_(std::move(chosen)), mesh_(select_cells(mesh, tags, candidates, choice_.chosen(), names)) {}
 
 bool is_open(const hybrid::HybridMesh& mesh, CellIndex cell, int i) {
+  if (mesh.partner_at(cell, i) != no_index) return false;
   const Quad quad = mesh.cell(cell).quad(i);
-  if (mesh.partner_at(quad, cell) != no_index) return false;
   return mesh.tet_at(triangles_of(quad, mesh.cell(cell).outer_diagonal(i))[0]) != no_index;
 }
 

@@ -219,7 +219,7 @@ void Conformer::give_back(CellIndex c, std::vector<choice::OpenQuad>& open) {
   const hybrid::HybridCell cell = mesh_.cell(c);
   std::array<CellIndex, 6> partners;
   for (int i = 0; i < cell.quad_count(); ++i) {
-    partners[i] = mesh_.partner_at(cell.quad(i), c);
+    partners[i] = mesh_.partner_at(c, i);
     if (choice::is_open(mesh_, c, i)) diagonals_.erase(diagonal_of({c, i}));
   }
   mesh_.remove_cell(c);

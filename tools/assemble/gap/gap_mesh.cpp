@@ -156,8 +156,7 @@ std::optional<std::array<Triangle, 2>> GapMesh::boundary_triangles(KeptIndex kep
 }
 
 bool GapMesh::has_partner(KeptIndex kept, int i) const {
-  const CellIndex c = kept_[kept].source;
-  return mesh_.partner_at(mesh_.cell(c).quad(i), c) != no_index;
+  return mesh_.partner_at(kept_[kept].source, i) != no_index;
 }
 
 void GapMesh::set_alive(KeptIndex kept, bool is_alive) {

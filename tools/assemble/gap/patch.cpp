@@ -133,7 +133,9 @@ double Patch::least() const {
 }
 
 bool Patch::keeps_floors() const {
-  return std::ranges::all_of(cells_, [&](const Cell& cell) { return quality(cell) >= cell.floor && is_good(cell); });
+  // The quality refuses most, and takes less time.
+  return std::ranges::all_of(cells_, [&](const Cell& cell) { return quality(cell) >= cell.floor; }) &&
+         std::ranges::all_of(cells_, [&](const Cell& cell) { return is_good(cell); });
 }
 
 double Patch::cost_before() const {

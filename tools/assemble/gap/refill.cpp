@@ -80,11 +80,9 @@ RoomCells::Measures RoomCells::of(const SmallCell& cell) {
   return slot.measures;
 }
 
-// Takes the cell into the list where it is good enough, not larger than what is left, and no facet of it is in the
-// front the wrong way round: there another cell is on that side.
+// Takes the cell into the list where no facet of it is in the front the wrong way round (there another cell is on that
+// side), it is good enough, and not larger than what is left.
 void Refill::offer(const SmallCell& cell, std::vector<Offer>& offers) {
-  const RoomCells::Measures measures = cells_.of(cell);
-  if (measures.quality < floor_ || measures.volume > space_) return;
   int closes = 0;
   bool fits = true;
   for_facets(cell, [&](SmallFacet facet) {
@@ -92,7 +90,10 @@ void Refill::offer(const SmallCell& cell, std::vector<Offer>& offers) {
     closes += closes_it ? 1 : -1;
     fits = fits && (closes_it || !front_.has(facet.reversed()));
   });
-  if (fits) offers.push_back({cell, measures.cost, measures.volume, closes});
+  if (!fits) return;
+  const RoomCells::Measures measures = cells_.of(cell);
+  if (measures.quality < floor_ || measures.volume > space_) return;
+  offers.push_back({cell, measures.cost, measures.volume, closes});
 }
 
 // On two quads of the front that have an edge in common.

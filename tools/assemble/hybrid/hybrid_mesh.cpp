@@ -1,6 +1,7 @@
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 
 #include <cassert>
+#include <utility>
 
 namespace hexpipe::assemble::hybrid {
 
@@ -13,13 +14,25 @@ Quad HybridCell::quad(int i) const {
   });
 }
 
+std::span<const VertexKey<4>> HybridCell::quad_keys(std::array<VertexKey<4>, 6>& keys) const {
+  const auto count = static_cast<std::size_t>(quad_count());
+  for (std::size_t i = 0; i < count; ++i) keys[i] = key_of(quad(static_cast<int>(i)));
+  return std::span(keys).first(count);
+}
+
 HybridMesh::HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed)
+    : HybridMesh(mesh, removed, {}, CellQuads(mesh.points.size())) {}
+
+HybridMesh::HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed,
+                       IndexedVector<CellIndex, HybridCell> cells, CellQuads quads)
     : points(mesh.points),
       tets_(mesh.tets),
       regions_(mesh.tet_tags),
       alive_(mesh.tets.size(), 0),
       first_(mesh.points.size(), no_index),
-      next_(4 * mesh.tets.size(), no_index) {
+      next_(4 * mesh.tets.size(), no_index),
+      cells_(std::move(cells)),
+      quads_(std::move(quads)) {
   assert(removed.size() == tets_.size());
   for (std::size_t t = tets_.size(); t-- > 0;)
     if (!removed[t]) link(TetIndex(t));
@@ -28,6 +41,7 @@ HybridMesh::HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed)
 Vertex HybridMesh::add_point(const Vec3& at) {
   points.push_back(at);
   first_.push_back(no_index);
+  quads_.add_vertex();
   return static_cast<Vertex>(points.size() - 1);
 }
 
@@ -95,30 +109,15 @@ void HybridMesh::tets_around_edge(Vertex a, Vertex b, std::vector<TetIndex>& out
 CellIndex HybridMesh::add_cell(const HybridCell& cell) {
   const CellIndex c(cells_.size());
   cells_.push_back(cell);
-  for (int i = 0; i < cell.quad_count(); ++i) {
-    auto [entry, added] = cells_at_quad_.try_emplace(key_of(cell.quad(i)), std::array<CellIndex, 2>{c, no_index});
-    if (added) continue;
-    auto& cells = entry.value();
-    assert(cells[0] == no_index || cells[1] == no_index);
-    cells[cells[0] == no_index ? 0 : 1] = c;
-  }
+  std::array<VertexKey<4>, 6> keys;
+  quads_.add(c, cell.quad_keys(keys));
   return c;
 }
 
 void HybridMesh::remove_cell(CellIndex c) {
   assert(cells_[c].alive);
   cells_[c].alive = false;
-  for (int i = 0; i < cells_[c].quad_count(); ++i)
-    for (auto& other : cells_at_quad_[key_of(cells_[c].quad(i))])
-      if (other == c) other = no_index;
-}
-
-CellIndex HybridMesh::partner_at(const Quad& quad, CellIndex cell) const {
-  const auto found = cells_at_quad_.find(key_of(quad));
-  if (found == cells_at_quad_.end()) return no_index;
-  for (CellIndex other : found->second)
-    if (other != cell && other != no_index) return other;
-  return no_index;
+  quads_.remove(c, cells_[c].quad_count());
 }
 
 }  // namespace hexpipe::assemble::hybrid

@@ -11,12 +11,7 @@
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/tet_mesh.hpp"
-
-namespace hexpipe::assemble {
-
-using CellIndex = Index<struct CellOfHybridMesh>;
-
-}  // namespace hexpipe::assemble
+#include "tools/assemble/hybrid/cell_quads.hpp"
 
 namespace hexpipe::assemble::hybrid {
 
@@ -36,6 +31,8 @@ struct HybridCell {
   }
   // Its normal points outwards.
   Quad quad(int i) const;
+  // Of all its quads.
+  std::span<const VertexKey<4>> quad_keys(std::array<VertexKey<4>, 6>& keys) const;
   // The diagonal that the mesh has outside the cell, beyond an absorbed tet.
   int outer_diagonal(int i) const { return sliver[i] == no_index ? inner_diagonal[i] : 1 - inner_diagonal[i]; }
 };
@@ -44,6 +41,9 @@ class HybridMesh {
  public:
   // All tets of `mesh` except those marked in `removed`; no cells yet.
   HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed);
+  // With these cells, all of whose quads are in `quads`.
+  HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed, IndexedVector<CellIndex, HybridCell> cells,
+             CellQuads quads);
 
   std::vector<Vec3> points;
 
@@ -71,8 +71,8 @@ class HybridMesh {
   CellIndex add_cell(const HybridCell& cell);
   void remove_cell(CellIndex c);
   void set_sliver(CellIndex c, int quad, TetIndex tet) { cells_[c].sliver[quad] = tet; }
-  // The other cell at a quad, or no_index.
-  CellIndex partner_at(const Quad& quad, CellIndex cell) const;
+  // The other cell at quad `i` of a cell, or no_index.
+  CellIndex partner_at(CellIndex cell, int i) const { return quads_.partner(cell, i); }
 
  private:
   void link(TetIndex t);
@@ -85,7 +85,7 @@ class HybridMesh {
   std::vector<std::int64_t> first_, next_;
 
   IndexedVector<CellIndex, HybridCell> cells_;
-  KeyMap<4, std::array<CellIndex, 2>> cells_at_quad_;
+  CellQuads quads_;
 };
 
 }  // namespace hexpipe::assemble::hybrid

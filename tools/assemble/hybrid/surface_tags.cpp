@@ -63,8 +63,7 @@ void SurfaceTags::merge(Vertex from, Vertex into, std::span<const TaggedTriangle
 }
 
 std::optional<TaggedTriangle> SurfaceTags::find(const Triangle& triangle) const {
-  for (const Vertex v : triangle)
-    if (static_cast<std::size_t>(v) >= is_on_any_.size() || !is_on_any_[v]) return std::nullopt;
+  if (!is_on_surface(triangle)) return std::nullopt;
   const auto found = numbers_.find(key_of(triangle));
   if (found == numbers_.end()) return std::nullopt;
   return found->second;
@@ -78,6 +77,7 @@ std::optional<SurfaceTags::Cover> SurfaceTags::cover_of(const Quad& quad, int di
 }
 
 std::optional<SurfaceTags::Cover> SurfaceTags::cover_of(const Quad& quad) const {
+  if (!is_on_surface(quad)) return std::nullopt;
   if (const auto cover = cover_of(quad, 0)) return cover;
   return cover_of(quad, 1);
 }

@@ -2,6 +2,7 @@
 // The input's surface, which nothing may cross: the tagged triangles on its boundary, on its interfaces, and inside a
 // region.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -28,6 +29,11 @@ class SurfaceTags {
   // The surface of `mesh` is complete.
   explicit SurfaceTags(const TetMesh& mesh);
 
+  // Whether each of these vertices is one of a tagged triangle. Most facets lie inside, and this tells so at once.
+  bool is_on_surface(std::span<const Vertex> vertices) const {
+    return std::ranges::all_of(
+        vertices, [&](Vertex v) { return static_cast<std::size_t>(v) < is_on_any_.size() && is_on_any_[v]; });
+  }
   bool contains(const Triangle& triangle) const { return find(triangle).has_value(); }
   // The tagged triangle with these vertices.
   std::optional<TaggedTriangle> find(const Triangle& triangle) const;
@@ -64,7 +70,7 @@ class SurfaceTags {
   IndexedVector<TaggedTriangle, Triangle> triangles_;
   IndexedVector<TaggedTriangle, std::int32_t> tags_;
   KeyMap<3, TaggedTriangle> numbers_;
-  std::vector<bool> is_on_any_;  // by vertex; answers at once for most triangles, because they lie inside
+  std::vector<bool> is_on_any_;  // by vertex
   std::vector<Tet> peeled_;
   std::vector<Merge> merges_;
 };

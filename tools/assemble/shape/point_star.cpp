@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hexpipe::assemble::shape {
 namespace {
@@ -37,6 +38,7 @@ void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, co
   Term term{};
   term.scale = kind == CellKind::tet ? rules.weight * tet_scale : rules.weight;
   term.rules = rules;
+  term.mean_share = 1 / (rules.weight * rules.weight);
   with_topology(kind, [&](auto topology) {
     for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, term);
   });
@@ -97,24 +99,43 @@ double PointStar::worst(const Vec3& at) const {
   return least;
 }
 
-double PointStar::worst_unweighted(const Vec3& at) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < terms_.size(); ++i) least = std::min(least, value(i, at) / weight(i));
-  return least;
-}
-
-double PointStar::score(const Vec3& at) const {
+void PointStar::measure(const Vec3& at, Measures& measures) const {
+  measures.at = at;
+  measures.values.resize(terms_.size());
+  double worst = std::numeric_limits<double>::infinity(), worst_unweighted = worst;
   double sum = 0, shares = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    sum += mean_share(i) * std::min(value(i, at) / weight(i), terms_[i].rules.enough);
+    const double weighted = value(i, at), unweighted = weighted / weight(i);
+    measures.values[i] = weighted;
+    worst = std::min(worst, weighted);
+    worst_unweighted = std::min(worst_unweighted, unweighted);
+    sum += mean_share(i) * std::min(unweighted, terms_[i].rules.enough);
     shares += mean_share(i);
   }
-  return (terms_.empty() ? 0 : sum / shares) + dot(pull_, at - start_);
+  measures.worst = worst, measures.worst_unweighted = worst_unweighted;
+  measures.mean = terms_.empty() ? 0 : sum / shares;
 }
 
-bool PointStar::exceeds(const Vec3& at, double bound) const {
-  for (std::size_t i = 0; i < terms_.size(); ++i)
-    if (!(value(i, at) > bound)) return false;
+PointStar::Measures PointStar::measured(const Vec3& at) const {
+  Measures measures;
+  measure(at, measures);
+  return measures;
+}
+
+bool PointStar::exceeds(const Vec3& at, double bound, std::vector<double>& values) const {
+  values.resize(terms_.size());
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    values[i] = value(i, at);
+    if (!(values[i] > bound)) return false;
+  }
+  return true;
+}
+
+bool PointStar::keeps_floors(const Measures& before, const Measures& after) const {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const double there = after.values[i];
+    if (there < weight(i) * terms_[i].rules.floor && there < before.values[i]) return false;
+  }
   return true;
 }
 
@@ -165,15 +186,14 @@ struct Linearization {
   std::vector<Vec3> gradients;
   double worst = 0;
 
-  void compute(const PointStar& star, const Vec3& at, const Freedom& freedom) {
-    values.resize(star.size());
-    gradients.resize(star.size());
+  // `values` are those at the point.
+  void find_worst() {
     worst = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      values[i] = star.value(i, at);
-      gradients[i] = freedom.allowed(star.gradient(i, at));
-      worst = std::min(worst, values[i]);
-    }
+    for (const double value : values) worst = std::min(worst, value);
+  }
+  void find_gradients(const PointStar& star, const Vec3& at, const Freedom& freedom) {
+    gradients.resize(star.size());
+    for (std::size_t i = 0; i < star.size(); ++i) gradients[i] = freedom.allowed(star.gradient(i, at));
   }
 
   // Where along `direction` another corner would become the worst, if all were linear.
@@ -202,9 +222,13 @@ bool is_direction(const Vec3& sum, std::span<const Vec3> gradients) {
 Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom) {
   Linearization here;
   std::vector<Vec3> active;
-  here.compute(star, start, freedom);
+  here.values.resize(star.size());
+  for (std::size_t i = 0; i < star.size(); ++i) here.values[i] = star.value(i, start);
+  here.find_worst();
   Placement best{start, here.worst};
   if (freedom.kind == Freedom::Kind::none) return best;
+  here.find_gradients(star, start, freedom);
+  std::vector<double> values;  // at a place that is tried
   double band = widest_band;
   for (int step = 0; step < steps; ++step) {
     active.clear();
@@ -216,10 +240,11 @@ Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const
       double length = here.reach(direction);
       for (int i = 0; i <= halvings; ++i, length /= 2) {
         const Vec3 at = best.at + direction * length;
-        if (!star.exceeds(at, best.worst + least_gain)) continue;
-        const double worst = star.worst(at);
-        gain = worst - best.worst;
-        best = {at, worst};
+        if (!star.exceeds(at, best.worst + least_gain, values)) continue;
+        here.values.swap(values);
+        here.find_worst();
+        gain = here.worst - best.worst;
+        best = {at, here.worst};
         break;
       }
     }
@@ -228,7 +253,7 @@ Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const
       band /= 10;
       continue;
     }
-    here.compute(star, best.at, freedom);
+    here.find_gradients(star, best.at, freedom);
   }
   return best;
 }
@@ -267,19 +292,19 @@ Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start) {
   return at;
 }
 
-Placement raise_score(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom) {
-  Placement best{start, star.worst(start)};
-  const double weighted_floor = std::min(floor, best.worst),
-               unweighted_floor = std::min(floor, star.worst_unweighted(start));
-  double score = star.score(start);
+Placement raise_score_from(const PointStar& star, const PointStar::Measures& start, int steps, double floor,
+                           const Freedom& freedom) {
+  PointStar::Measures best = start, there;
+  const double weighted_floor = std::min(floor, best.worst), unweighted_floor = std::min(floor, best.worst_unweighted);
+  double score = star.score_of(best);
+  double shares = 0;
+  for (std::size_t i = 0; i < star.size(); ++i) shares += star.mean_share(i);
   std::vector<Vec3> gradients;
   for (int step = 0; step < steps; ++step) {
     gradients = {star.pull()};
     Vec3 sum = star.pull();
-    double shares = 0;
-    for (std::size_t i = 0; i < star.size(); ++i) shares += star.mean_share(i);
     for (std::size_t i = 0; i < star.size(); ++i) {
-      if (star.is_enough(i, best.at)) continue;
+      if (star.is_enough(i, best.values[i])) continue;
       gradients.push_back(star.gradient(i, best.at) * (star.mean_share(i) / star.weight(i) / shares));
       sum += gradients.back();
     }
@@ -291,18 +316,21 @@ Placement raise_score(const PointStar& star, const Vec3& start, int steps, doubl
     double length = std::max(1 - score, first_rise) / slope;
     bool moved = false;
     for (int i = 0; i <= 2 * halvings && !moved; ++i, length /= 2) {
-      const Vec3 at = best.at + direction * length;
-      const double there = star.score(at);
-      if (!(there > score + least_gain)) continue;
-      const double worst = star.worst(at);
-      if (worst < weighted_floor || star.worst_unweighted(at) < unweighted_floor) continue;
-      best = {at, worst};
-      score = there;
+      star.measure(best.at + direction * length, there);
+      const double score_there = star.score_of(there);
+      if (!(score_there > score + least_gain)) continue;
+      if (there.worst < weighted_floor || there.worst_unweighted < unweighted_floor) continue;
+      std::swap(best, there);
+      score = score_there;
       moved = true;
     }
     if (!moved) break;
   }
-  return best;
+  return {best.at, best.worst};
+}
+
+Placement raise_score(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom) {
+  return raise_score_from(star, star.measured(start), steps, floor, freedom);
 }
 
 }  // namespace hexpipe::assemble::shape

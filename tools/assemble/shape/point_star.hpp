@@ -35,20 +35,31 @@ class PointStar {
   Vec3 gradient(std::size_t term, const Vec3& at) const;
   double weight(std::size_t term) const { return terms_[term].rules.weight; }
   // The corner's share in the mean: larger if its weight makes it the worst sooner.
-  double mean_share(std::size_t term) const { return 1 / (weight(term) * weight(term)); }
-  // Whether the mean would not count a higher value.
-  bool is_enough(std::size_t term, const Vec3& at) const {
-    return value(term, at) / weight(term) >= terms_[term].rules.enough;
-  }
+  double mean_share(std::size_t term) const { return terms_[term].mean_share; }
+  // Whether the mean would not count a higher value than this one of the corner.
+  bool is_enough(std::size_t term, double value) const { return value / weight(term) >= terms_[term].rules.enough; }
   // The least value over all corners, weighted and unweighted.
   double worst(const Vec3& at) const;
-  double worst_unweighted(const Vec3& at) const;
-  // The mean of the unweighted values, by share, plus the pull.
-  double score(const Vec3& at) const;
-  // Whether worst(at) > bound; stops at the first corner that is not above it.
-  bool exceeds(const Vec3& at, double bound) const;
+  double worst_unweighted(const Vec3& at) const { return measured(at).worst_unweighted; }
+
+  // All that is asked about a place, from one look at each corner.
+  struct Measures {
+    Vec3 at{};
+    std::vector<double> values{};  // by corner
+    double worst = 0, worst_unweighted = 0;
+    double mean = 0;  // of the unweighted values, by share
+  };
+  // Into `measures`, whose memory is used again.
+  void measure(const Vec3& at, Measures& measures) const;
+  Measures measured(const Vec3& at) const;
+  // The mean plus the pull.
+  double score_of(const Measures& measures) const { return measures.mean + dot(pull_, measures.at - start_); }
+  double score(const Vec3& at) const { return score_of(measured(at)); }
+  // Whether worst(at) > bound; stops at the first corner that is not above it. Fills `values` with what it has seen.
+  bool exceeds(const Vec3& at, double bound, std::vector<double>& values) const;
   // False if the move takes a value below its floor, or further below it.
   bool keeps_floors(const Vec3& before, const Vec3& at) const;
+  bool keeps_floors(const Measures& before, const Measures& after) const;
 
  private:
   // Either the moving vertex is the corner itself, and `fixed` its three neighbours; or it is one of the neighbours,
@@ -57,6 +68,7 @@ class PointStar {
     std::array<Vec3, 3> fixed;
     Vec3 normal;
     double scale;  // the weight, for a tet times the square root of 2
+    double mean_share;
     CornerRules rules;
     bool is_corner;
   };
@@ -85,7 +97,9 @@ struct Placement {
 Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom = {});
 
 // Takes at most `steps` steps that raise the score, none of which takes the least value, weighted or unweighted, below
-// `floor`.
+// `floor`. The start may have been measured before.
+Placement raise_score_from(const PointStar& star, const PointStar::Measures& start, int steps, double floor,
+                           const Freedom& freedom);
 Placement raise_score(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom = {});
 
 // A plane with its unit normal; points on the normal's side have positive distance.

@@ -46,6 +46,8 @@ constexpr double worth_of_growth = 0.2;
 constexpr double slides_below = 0.12;
 // A vertex stays if all its cells are at least this good.
 constexpr double excellent = 0.9;
+// The quality of a cell and the values of its corners in a star differ by less than this.
+constexpr double rounding = 1e-9;
 constexpr int steps_for_worst = 8;
 constexpr int steps_for_score = 2;
 // A smaller gain is not worth another look at the neighbours.
@@ -169,6 +171,10 @@ class Smoother {
   std::vector<std::uint8_t> due_;  // something around has moved since it was looked at
   std::vector<double> quality_;    // by cell
   PointStar star_;
+  // While improve() looks at a vertex: its star as it is and as it would be, and cells at it that were valid, and
+  // prisms that were upright.
+  PointStar::Measures before_, after_;
+  std::vector<std::int32_t> valid_, upright_;
 };
 
 void Smoother::look_around(Vertex v) {
@@ -308,37 +314,41 @@ bool Smoother::are_above(Vertex v, double bound, bool weighted) {
 
 bool Smoother::improve(Vertex v, double only_below, bool weighted) {
   if (are_above(v, only_below, weighted)) return false;
+  const bool slide = slides(v);
+  if (slide && are_above(v, slides_below + rounding, true)) return false;
   look_around(v);
   const Vec3 before = points_[v];
-  const double worst = star_.worst(before);
-  const double worst_unweighted = star_.worst_unweighted(before);
+  star_.measure(before, before_);
+  const double worst = before_.worst;
+  const double worst_unweighted = before_.worst_unweighted;
   if ((weighted ? worst : worst_unweighted) > only_below) return false;
-  const bool poor = worst < good_enough, slide = slides(v);
+  const bool poor = worst < good_enough;
   if (slide && worst > slides_below) return false;
   if (!poor) star_.set_pull(before, worth_of_growth * growth_at(v));
-  const double score = star_.score(before);
+  const double score = star_.score_of(before_);
   const Placement goal = poor ? raise_worst(star_, before, steps_for_worst, freedom(v))
-                              : raise_score(star_, before, steps_for_score, good_enough, freedoms_[v]);
+                              : raise_score_from(star_, before_, steps_for_score, good_enough, freedoms_[v]);
   if (goal.at == before) return false;
-  std::vector<std::int32_t> upright_before;
+  upright_.clear();
   for (const std::int32_t c : cells_.at(v))
-    if (cells_.kind(c) == CellKind::prism && !looks_inverted(c)) upright_before.push_back(c);
-  std::vector<std::int32_t> valid_before(cells_.at(v).begin(), cells_.at(v).end());
+    if (cells_.kind(c) == CellKind::prism && !looks_inverted(c)) upright_.push_back(c);
+  valid_.assign(cells_.at(v).begin(), cells_.at(v).end());
   // Only untangle() meets invalid cells.
-  if (worst <= 0) std::erase_if(valid_before, [&](std::int32_t c) { return !is_valid_cell(c); });
+  if (worst <= 0) std::erase_if(valid_, [&](std::int32_t c) { return !is_valid_cell(c); });
+  const double floor = poor ? worst_unweighted : std::min(worst_unweighted, good_enough);
   Vec3 step = goal.at - before;
   for (int i = 0; i <= retreats; ++i, step *= 0.5) {
     const Vec3 there = before + step;
     const Vec3 at = slide ? sliding_->surface.foot(sliding_->origin[v], there).at : there;
-    const double floor = poor ? worst_unweighted : std::min(worst_unweighted, good_enough);
-    if (star_.worst_unweighted(at) < floor || !star_.keeps_floors(before, at)) continue;
-    const bool better = poor ? star_.worst(at) > worst + least_gain_of_move
-                             : star_.worst(at) >= good_enough && star_.score(at) > score + least_gain_of_move;
+    star_.measure(at, after_);
+    if (after_.worst_unweighted < floor || !star_.keeps_floors(before_, after_)) continue;
+    const bool better = poor ? after_.worst > worst + least_gain_of_move
+                             : after_.worst >= good_enough && star_.score_of(after_) > score + least_gain_of_move;
     if (!better || leaves_surface(v, at) || (worst > 0 && !keeps_edges_long(v, at)) || (slide && !stays_close(v, at)))
       continue;
     points_[v] = at;
-    if (std::ranges::all_of(valid_before, [&](std::int32_t c) { return is_valid_cell(c); }) &&
-        std::ranges::none_of(upright_before, [&](std::int32_t c) { return looks_inverted(c); }))
+    if (std::ranges::all_of(valid_, [&](std::int32_t c) { return is_valid_cell(c); }) &&
+        std::ranges::none_of(upright_, [&](std::int32_t c) { return looks_inverted(c); }))
       return true;
     points_[v] = before;
   }
