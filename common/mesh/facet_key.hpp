@@ -16,17 +16,21 @@ namespace hexpipe {
 template <std::size_t N>
 using VertexKey = std::array<Vertex, N>;
 
-// By a sorting network: it has no branches that a processor could guess wrong.
+// Those of edges and facets by a sorting network: it has no branches that a processor could guess wrong.
 template <std::size_t N>
 VertexKey<N> key_of(std::array<Vertex, N> v) {
-  static_assert(N >= 2 && N <= 4);
   const auto order = [&](std::size_t i, std::size_t k) {
     const Vertex low = std::min(v[i], v[k]), high = std::max(v[i], v[k]);
     v[i] = low, v[k] = high;
   };
-  order(0, 1);
-  if constexpr (N == 3) order(1, 2), order(0, 1);
-  if constexpr (N == 4) order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+  if constexpr (N == 2)
+    order(0, 1);
+  else if constexpr (N == 3)
+    order(0, 1), order(1, 2), order(0, 1);
+  else if constexpr (N == 4)
+    order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+  else
+    std::ranges::sort(v);
   return v;
 }
 inline VertexKey<2> edge_key(Vertex a, Vertex b) {
