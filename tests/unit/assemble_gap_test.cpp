@@ -621,7 +621,7 @@ TEST(FewerCells, AHexGivesWayWhereACellBesideItStaysPoor) {
     const auto poor = poor_cells(gap);
     ASSERT_GT(poor, 0);
     const std::vector<CellIndex> opened = open_hexes(gap).chosen;
-    ASSERT_EQ(opened.size(), 1u);  // one in a thousand, and one
+    ASSERT_EQ(opened.size(), 1u);
     EXPECT_LT(poor_cells(gap), poor);
     gap.write_back();
     EXPECT_FALSE(hybrid.cell(opened.front()).alive);
