@@ -43,8 +43,9 @@ struct Opened {
 };
 
 // Puts new vertices into the rooms around cells of the gap that are worse than least_wanted. Where that does not help,
-// a chosen cell beside the poor one goes, or two: better pyramids and tets take its room, and the poor cell improves. No
-// other cell falls below least_wanted that was not below before. At most nine chosen cells and one more in each 300 go.
+// a chosen cell beside the poor one goes, or two: better pyramids and tets take its room, and the poor cell improves.
+// No other cell falls below least_wanted that was not below before. At most nine chosen cells and one more in each 300
+// go.
 Opened open_hexes(GapMesh& gap);
 
 // Moves inner vertices out of the hexes that they belong to, into the cells of the gap, until the hexes are larger by

@@ -74,11 +74,10 @@ class PhaseSolver {
     std::vector<std::int32_t> place(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) place[order_[i]] = static_cast<std::int32_t>(i);
     for (const std::int32_t f : order_) {
-      for_each_link(links, across, f, [&](const SurfaceLink&) { ++first_view_.back(); });
-      first_view_.push_back(first_view_.back());
+      std::int64_t count = 0;
+      for_each_link(links, across, f, [&](const SurfaceLink&) { ++count; });
+      first_view_.push_back(first_view_.back() + count);
     }
-    first_view_.pop_back();
-    first_view_.insert(first_view_.begin(), 0);
     views_.resize(static_cast<std::size_t>(first_view_.back()));
     degrees_ = in_order(degrees);
     targets_ = in_order(targets);
