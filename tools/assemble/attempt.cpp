@@ -159,8 +159,8 @@ void Builder::untangle_in_place(Attempt& attempt) const {
 
 gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, gap::Passes passes) const {
   const Step step("making the cells between hexes fewer", 0, 0.4);
-  const gap::FewerCells fewer = gap::make_fewer_cells(attempt.mesh, {attempt.tags, input_.surface}, rules_.is_shared(),
-                                                      passes, attempt.improvement.fewer);
+  const gap::FewerCells fewer =
+      gap::make_fewer_cells(attempt.mesh, {attempt.tags, input_.surface}, rules_.is_shared(), passes);
   attempt.improvement.fewer += fewer;
   conform::ConformityCounts& counts = attempt.conformity;
   for (const CellIndex c : fewer.opened) {

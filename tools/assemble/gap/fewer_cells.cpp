@@ -29,11 +29,10 @@ FewerCells merge_and_refill(GapMesh& gap, const Surface& surface) {
 }  // namespace
 
 FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
-                            Passes passes, const FewerCells& so_far) {
+                            Passes passes) {
   FewerCells counts;
   GapMesh gap(mesh, surface.tags, is_shared);
   if (!gap.is_valid()) return counts;
-  const double hex_volume = hex_volume_of(gap);
   switch (passes) {
     case Passes::merge:
       gap.ignore_faces();
@@ -43,16 +42,16 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
       counts = merge_and_refill(gap, surface);
       break;
     case Passes::mend: {
+      const double hex_volume = hex_volume_of(gap);
       // The pieces of a mesh would have to agree on chosen cells that go.
       MendCounts mended = mend(gap, is_shared.empty());
       counts.mended = mended.mended;
       counts.opened = std::move(mended.opened);
-      const double lost = so_far.hex_volume_lost + hex_volume - hex_volume_of(gap);
-      if (lost > 0) counts.grown = grow_hexes(gap, lost);
+      // Smoothing gives hexes the volume back that they lost before; now it is over.
+      counts.grown = grow_hexes(gap, hex_volume - hex_volume_of(gap));
       break;
     }
   }
-  counts.hex_volume_lost = hex_volume - hex_volume_of(gap);
   if (counts.any()) gap.write_back();
   return counts;
 }

@@ -18,12 +18,11 @@ struct FewerCells {
   std::int64_t mended = 0;        // cells, in the last pass
   std::int64_t grown = 0;         // moves out of hexes, in the last pass
   std::vector<CellIndex> opened;  // chosen cells that are gone
-  double hex_volume_lost = 0;     // by those, and by vertices that moved
 
   bool any() const { return merged + refilled + mended + grown > 0 || !opened.empty(); }
   FewerCells& operator+=(const FewerCells& more) {
     merged += more.merged, on_surface += more.on_surface, refilled += more.refilled;
-    mended += more.mended, grown += more.grown, hex_volume_lost += more.hex_volume_lost;
+    mended += more.mended, grown += more.grown;
     opened.insert(opened.end(), more.opened.begin(), more.opened.end());
     return *this;
   }
@@ -43,9 +42,8 @@ enum class Passes {
 
 // Lowers the objective (objective.hpp). The mesh has to conform; nothing is done if a tet, or a cell made of tets, is
 // not valid. Chosen cells stay, except those `opened`; shared vertices stay where they are, and vertices on tagged
-// facets stay on them. Passes::mend gives the hexes the volume back that it and passes before it took, whose sum is
-// `so_far`.
+// facets stay on them.
 FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
-                            Passes passes, const FewerCells& so_far);
+                            Passes passes);
 
 }  // namespace hexpipe::assemble::gap

@@ -84,6 +84,7 @@ double HexGrower::grow(Vertex v, double price, double wanted) {
 }
 
 std::int64_t HexGrower::run(double wanted) {
+  if (!(wanted > 0)) return 0;
   const std::vector<Vertex> vertices = beside_hexes();
   const double hex_volume = mean_hex_volume();
   std::int64_t moves = 0;
