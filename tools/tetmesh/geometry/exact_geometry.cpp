@@ -153,7 +153,7 @@ IntersectionReport find_intersections(std::span<const Vec3> points, std::span<co
     std::ranges::sort(report.pairs);
     return report;
   }
-  // CGAL's search decides which pairs are reported where there are too many. It takes five times as long.
+  // CGAL's search decides which pairs are reported where there are too many. It takes longer.
   auto take = [&](const TriangleBox& first, const TriangleBox& second) {
     if (!intersect(first.info(), second.info())) return;
     if (report.pairs.size() == limit) throw LimitReached();
