@@ -21,7 +21,7 @@ const char* const example =
     "prism 0.7071067811865475 0.5 3 1 9 10 11 12 13 14 20 21 22 30\n"
     "pyramid 0.25 1e-300 2 0 1 2 3 4 5 1 2147483647\n";
 
-Candidates read(const std::string& text) {
+Candidates read_cand(const std::string& text) {
   Input input = Input::from_memory(text, "test.cand");
   return read_cand(input);
 }
@@ -30,13 +30,13 @@ std::string written(const Candidates& candidates) {
   return hexpipe::testing::written_bytes([&](Output& output) { write_cand(candidates, output); });
 }
 
-void expect_rejected(const std::string& text, const std::string& message) {
-  EXPECT_THAT([&] { read(text); }, ThrowsMessage<FormatError>(AllOf(StartsWith("test.cand:"), HasSubstr(message))))
+void expect_cand_rejected(const std::string& text, const std::string& message) {
+  EXPECT_THAT([&] { read_cand(text); }, ThrowsMessage<FormatError>(AllOf(StartsWith("test.cand:"), HasSubstr(message))))
       << text;
 }
 
 TEST(Cand, ReadsTheExample) {
-  const Candidates c = read(example);
+  const Candidates c = read_cand(example);
   validate(c, "test");
   EXPECT_THAT(c.kind, ::testing::ElementsAre(CellKind::hex, CellKind::prism, CellKind::pyramid));
   EXPECT_EQ(c.vertices[1], (std::array<Vertex, 8>{8, 9, 10, 11, 12, 13, -1, -1}));
@@ -48,55 +48,56 @@ TEST(Cand, ReadsTheExample) {
 }
 
 TEST(Cand, WhatIsWrittenIsReadBack) {
-  EXPECT_EQ(written(read(example)), example);
+  EXPECT_EQ(written(read_cand(example)), example);
   EXPECT_EQ(written(Candidates{}), "hexpipe-candidates 1 0 0 0\n");
-  EXPECT_EQ(read("hexpipe-candidates 1 0 0 0\n"), Candidates{});
+  EXPECT_EQ(read_cand("hexpipe-candidates 1 0 0 0\n"), Candidates{});
 }
 
 TEST(Cand, TakesBlanksAndLineEndsAsTheyCome) {
-  EXPECT_EQ(read("hexpipe-candidates\t1  1 2 0\r\n pyramid .25 1 2 0  1 2 3 4 5 1 2 \r\n\n"),
-            read("hexpipe-candidates 1 1 2 0\npyramid 0.25 1 2 0 1 2 3 4 5 1 2\n"));
+  EXPECT_EQ(read_cand("hexpipe-candidates\t1  1 2 0\r\n pyramid .25 1 2 0  1 2 3 4 5 1 2 \r\n\n"),
+            read_cand("hexpipe-candidates 1 1 2 0\npyramid 0.25 1 2 0 1 2 3 4 5 1 2\n"));
 }
 
 TEST(Cand, MessagesNameLineAndExpectation) {
-  expect_rejected("", ":1: expected hexpipe-candidates, found end of file");
-  expect_rejected("MeshVersionFormatted 2", ":1: expected hexpipe-candidates, found 'MeshVersionFormatted'");
-  expect_rejected("hexpipe-candidates 2 0 0 0\n", ":1: expected version 1, found 2");
-  expect_rejected("hexpipe-candidates 1 0 0\n", ":2: expected a number of boundary tets, found end of file");
-  expect_rejected("hexpipe-candidates 1 0 0 0 0\n", ":1: expected the end of the line, found '0'");
-  expect_rejected("hexpipe-candidates 1 -1 0 0\n", ":1: expected a number of candidates, found '-1'");
+  expect_cand_rejected("", ":1: expected hexpipe-candidates, found end of file");
+  expect_cand_rejected("MeshVersionFormatted 2", ":1: expected hexpipe-candidates, found 'MeshVersionFormatted'");
+  expect_cand_rejected("hexpipe-candidates 2 0 0 0\n", ":1: expected version 1, found 2");
+  expect_cand_rejected("hexpipe-candidates 1 0 0\n", ":2: expected a number of boundary tets, found end of file");
+  expect_cand_rejected("hexpipe-candidates 1 0 0 0 0\n", ":1: expected the end of the line, found '0'");
+  expect_cand_rejected("hexpipe-candidates 1 -1 0 0\n", ":1: expected a number of candidates, found '-1'");
   const std::string header = "hexpipe-candidates 1 1 2 0\n";
-  expect_rejected(header + "cube 1 1 2 0 1 2 3 4 5 1 2\n", ":2: expected hex, prism or pyramid, found 'cube'");
-  expect_rejected(header + "tet 1 1 2 0 1 2 3 4 1 2\n     ", ":2: expected hex, prism or pyramid, found 'tet'");
-  expect_rejected(header + "pyramid x 1 2 0 1 2 3 4 5 1 2\n", ":2: expected the quality, found 'x'");
-  expect_rejected(header + "pyramid nan 1 2 0 1 2 3 4 5 1 2\n", ":2: expected the quality, found 'nan'");
-  expect_rejected(header + "pyramid 1 inf 2 0 1 2 3 4 5 1 2\n", ":2: expected the volume, found 'inf'");
-  expect_rejected(header + "pyramid 1 1 2 0 1 2 3 4 0 1 2\n", ":2: expected a vertex from 1 on, found 0");
-  expect_rejected(header + "pyramid 1 1 2 0 1 2 3 4 4 1 2\n", ":2: expected different vertices, found 4 twice");
-  expect_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 2 1\n", ":2: expected ascending tets, found 1 after 2");
-  expect_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1 1\n", ":2: expected ascending tets, found 1 after 1");
-  expect_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1\n2\n", ":2: expected a tet, found the end of the line");
-  expect_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1 2 3\n", ":2: expected the end of the line, found '3'");
-  expect_rejected(header + "pyramid 1 1 1 0 1 2 3 4 5 1\n", "expected 2 interior tets in all, found 1");
-  expect_rejected(header + "pyramid 1 1 2 1 1 2 3 4 5 1 2 3\n", "expected 0 boundary tets in all, found 1");
-  expect_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1 2\npyramid 1 1 2 0 1 2 3 4 5 1 2\n",
-                  ":3: expected nothing after the last candidate, found 'pyramid'");
-  expect_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1 3000000000\n", ":2: expected a tet, found '3000000000'");
+  expect_cand_rejected(header + "cube 1 1 2 0 1 2 3 4 5 1 2\n", ":2: expected hex, prism or pyramid, found 'cube'");
+  expect_cand_rejected(header + "tet 1 1 2 0 1 2 3 4 1 2\n     ", ":2: expected hex, prism or pyramid, found 'tet'");
+  expect_cand_rejected(header + "pyramid x 1 2 0 1 2 3 4 5 1 2\n", ":2: expected the quality, found 'x'");
+  expect_cand_rejected(header + "pyramid nan 1 2 0 1 2 3 4 5 1 2\n", ":2: expected the quality, found 'nan'");
+  expect_cand_rejected(header + "pyramid 1 inf 2 0 1 2 3 4 5 1 2\n", ":2: expected the volume, found 'inf'");
+  expect_cand_rejected(header + "pyramid 1 1 2 0 1 2 3 4 0 1 2\n", ":2: expected a vertex from 1 on, found 0");
+  expect_cand_rejected(header + "pyramid 1 1 2 0 1 2 3 4 4 1 2\n", ":2: expected different vertices, found 4 twice");
+  expect_cand_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 2 1\n", ":2: expected ascending tets, found 1 after 2");
+  expect_cand_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1 1\n", ":2: expected ascending tets, found 1 after 1");
+  expect_cand_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1\n2\n", ":2: expected a tet, found the end of the line");
+  expect_cand_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1 2 3\n", ":2: expected the end of the line, found '3'");
+  expect_cand_rejected(header + "pyramid 1 1 1 0 1 2 3 4 5 1\n", "expected 2 interior tets in all, found 1");
+  expect_cand_rejected(header + "pyramid 1 1 2 1 1 2 3 4 5 1 2 3\n", "expected 0 boundary tets in all, found 1");
+  expect_cand_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1 2\npyramid 1 1 2 0 1 2 3 4 5 1 2\n",
+                       ":3: expected nothing after the last candidate, found 'pyramid'");
+  expect_cand_rejected(header + "pyramid 1 1 2 0 1 2 3 4 5 1 3000000000\n", ":2: expected a tet, found '3000000000'");
 }
 
 // Before anything is allocated.
 TEST(Cand, CountsThatTheFileCannotHoldAreRejected) {
   for (const char* header : {"hexpipe-candidates 1 1000000000000 0 0\n", "hexpipe-candidates 1 0 1000000000000 0\n",
                              "hexpipe-candidates 1 0 0 1000000000000\n"})
-    expect_rejected(std::string(header) + "pyramid 1 1 2 0 1 2 3 4 5 1 2\n", "that the rest of the file can hold");
-  expect_rejected("hexpipe-candidates 1 1 4 0\npyramid 1 1 4000000000 0 1 2 3 4 5 1 2 3 4\n", ":2: expected a tet");
+    expect_cand_rejected(std::string(header) + "pyramid 1 1 2 0 1 2 3 4 5 1 2\n", "that the rest of the file can hold");
+  expect_cand_rejected("hexpipe-candidates 1 1 4 0\npyramid 1 1 4000000000 0 1 2 3 4 5 1 2 3 4\n",
+                       ":2: expected a tet");
 }
 
 TEST(Cand, EveryTruncatedPrefixIsRejected) {
   const std::string text = example;
   for (std::size_t length = 0; length < text.size(); ++length)
-    EXPECT_THROW(read(text.substr(0, length)), FormatError) << length;
-  expect_rejected(text.substr(0, text.size() - 1), ":4: expected the end of the line, found end of file");
+    EXPECT_THROW(read_cand(text.substr(0, length)), FormatError) << length;
+  expect_cand_rejected(text.substr(0, text.size() - 1), ":4: expected the end of the line, found end of file");
 }
 
 }  // namespace

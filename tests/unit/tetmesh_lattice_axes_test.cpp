@@ -38,7 +38,7 @@ Facets turned(Facets facets, const Axes& axes) {
 }
 
 // A prism over a regular polygon, from z = 0 to `height`.
-Facets prism(int sides, double radius, double height) {
+Facets regular_prism(int sides, double radius, double height) {
   Facets facets;
   const auto corner = [&](int i, double z) {
     const double angle = 0.3 + 2 * std::numbers::pi * (i % sides) / sides;
@@ -80,7 +80,7 @@ TEST(PartAxes, FollowTheLargestFacesOfSeveral) {
 // A prism of seven sides has no faces at right angles to each other but its ends.
 TEST(PartAxes, TakeEndsAndASideOfAPrism) {
   const Axes wanted = turned_axes(0.2, 0.6);
-  const Axes found = axes_of_model(surface_of(turned(prism(7, 1, 0.5), wanted)));
+  const Axes found = axes_of_model(surface_of(turned(regular_prism(7, 1, 0.5), wanted)));
   EXPECT_NEAR(std::abs(dot(found[2], wanted[2])), 1, 1e-12);
   EXPECT_NEAR(det(found[0], found[1], found[2]), 1, 1e-12);
 }

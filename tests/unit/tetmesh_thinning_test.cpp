@@ -23,7 +23,7 @@ using testing::remesh_surface;
 using testing::sphere;
 using testing::surface_of;
 
-constexpr double feature_angle = 40;
+constexpr double sharp_angle = 40;
 
 double distance_between(const Surface& a, const Surface& b) {
   const DistanceIndex of_a(a.points, a.triangles), of_b(b.points, b.triangles);
@@ -45,7 +45,7 @@ Facets with_noise(Facets facets, double noise) {
 TEST(ThinOut, LeavesFewTrianglesNearTheSurface) {
   for (const double noise : {0.0, 2e-4}) {
     const Surface surface = surface_of(with_noise(sphere({0, 0, 0}, 1, 120), noise));
-    const Surface thinned = thin_out(surface, feature_angle, 0.005, 0.3);
+    const Surface thinned = thin_out(surface, sharp_angle, 0.005, 0.3);
     EXPECT_NO_THROW(check_surface(thinned));
     EXPECT_LT(5 * thinned.triangles.size(), surface.triangles.size());
     EXPECT_LT(distance_between(surface, thinned), 0.006);
@@ -67,7 +67,7 @@ TEST(ThinOut, KeepsEdgesTagsShellsAndCurves) {
         surface.curves.push_back({t[i], t[(i + 1) % 3]}), surface.curve_tags.push_back(4);
     }
   ASSERT_EQ(surface.curves.size(), 20u);
-  const Surface thinned = thin_out(surface, feature_angle, 0.001, 0.3);
+  const Surface thinned = thin_out(surface, sharp_angle, 0.001, 0.3);
   EXPECT_NO_THROW(check_surface(thinned));
   EXPECT_LT(2 * thinned.triangles.size(), surface.triangles.size());
   EXPECT_LT(distance_between(surface, thinned), 1e-12);
@@ -91,8 +91,8 @@ TEST(ThinOut, KeepsEdgesTagsShellsAndCurves) {
 TEST(ThinOut, NoiseOfAFewHundredthsOfTheToleranceCostsLittle) {
   const Surface smooth = surface_of(sphere({0, 0, 0}, 1, 240));
   const Surface rough = surface_of(with_noise(sphere({0, 0, 0}, 1, 240), 4e-4));
-  const std::size_t of_smooth = thin_out(smooth, feature_angle, 0.006, 0.3).triangles.size();
-  EXPECT_LT(thin_out(rough, feature_angle, 0.006, 0.3).triangles.size(), 2 * of_smooth);
+  const std::size_t of_smooth = thin_out(smooth, sharp_angle, 0.006, 0.3).triangles.size();
+  EXPECT_LT(thin_out(rough, sharp_angle, 0.006, 0.3).triangles.size(), 2 * of_smooth);
 }
 
 // One point of a thousand lies so far out that the edges around it are sharp.
@@ -103,7 +103,7 @@ TEST(ThinOut, SharpEdgesOfNoiseAreNoFeatures) {
     surface.points[i] = 1.012 * surface.points[i];
     peaks.insert(surface.points[i].x);
   }
-  const Surface thinned = thin_out(surface, feature_angle, 0.03, 0.8);
+  const Surface thinned = thin_out(surface, sharp_angle, 0.03, 0.8);
   EXPECT_NO_THROW(check_surface(thinned));
   EXPECT_LT(4 * std::ranges::count_if(thinned.points, [&](const Vec3& p) { return peaks.contains(p.x); }),
             std::ssize(peaks));
