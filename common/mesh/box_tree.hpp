@@ -1,6 +1,6 @@
 #pragma once
-// Things in a tree of boxes. It finds the thing with the least value, where values grow with the distance, and pairs of
-// things whose boxes meet.
+// Things in a tree of boxes. It finds the thing with the least value, where values grow with the distance, and the
+// things near a box.
 
 #include <algorithm>
 #include <array>

@@ -69,8 +69,8 @@ TEST(PointStar, KeepsFloors) {
   star.add(CellKind::hex, cube, 0, {.weight = 0.5, .floor = 0.3});
   free.add(CellKind::hex, cube, 0, {.weight = 0.5});
   const Vec3 home{}, slight{0.2, 0.2, 0.2}, far{0.4, 0.4, 0.4}, further{0.5, 0.5, 0.5};
-  ASSERT_GT(star.worst_unweighted(slight), 0.3);
-  ASSERT_LT(star.worst_unweighted(far), 0.3);
+  ASSERT_GT(star.measured(slight).worst_unweighted, 0.3);
+  ASSERT_LT(star.measured(far).worst_unweighted, 0.3);
   EXPECT_TRUE(star.keeps_floors(home, slight));
   EXPECT_FALSE(star.keeps_floors(home, far));
   EXPECT_FALSE(star.keeps_floors(far, further));
@@ -89,21 +89,21 @@ TEST(PointStar, ScoreCountsThePull) {
     star.add(CellKind::hex, cube, static_cast<int>(middle));
   }
   ASSERT_EQ(star.worst({}), 1);
-  EXPECT_EQ(star.score({}), 1);
-  EXPECT_EQ(raise_score(star, {}, 5, 0.5).at, Vec3{});
+  EXPECT_EQ(star.score_of(star.measured({})), 1);
+  EXPECT_EQ(raise_score(star, star.measured({}), 5, 0.5).at, Vec3{});
   star.set_pull({}, {0.1, 0, 0});
-  EXPECT_EQ(star.score({}), 1);
-  const Placement slight = raise_score(star, {}, 5, 0.5);
+  EXPECT_EQ(star.score_of(star.measured({})), 1);
+  const Placement slight = raise_score(star, star.measured({}), 5, 0.5);
   EXPECT_GT(slight.at.x, 0.01);
-  EXPECT_GT(star.score(slight.at), 1);
+  EXPECT_GT(star.score_of(star.measured(slight.at)), 1);
   star.set_pull({}, {10, 0, 0});
   for (const double floor : {0.5, 0.8, 0.9}) {
-    const Placement far = raise_score(star, {}, 200, floor);
+    const Placement far = raise_score(star, star.measured({}), 200, floor);
     EXPECT_GE(far.worst, floor);
     EXPECT_LT(far.worst, floor + 0.1);
     EXPECT_EQ(far.worst, star.worst(far.at));
   }
-  EXPECT_EQ(raise_score(star, {}, 20, 0.5, {Freedom::Kind::plane, {1, 0, 0}}).at, Vec3{});
+  EXPECT_EQ(raise_score(star, star.measured({}), 20, 0.5, {Freedom::Kind::plane, {1, 0, 0}}).at, Vec3{});
 }
 
 TEST(PointStar, ShortestVectorOfAHull) {

@@ -134,7 +134,7 @@ bool PointStar::exceeds(const Vec3& at, double bound, std::vector<double>& value
 bool PointStar::keeps_floors(const Measures& before, const Measures& after) const {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const double there = after.values[i];
-    if (there < weight(i) * terms_[i].rules.floor && there < before.values[i]) return false;
+    if (is_below_floor(i, there) && there < before.values[i]) return false;
   }
   return true;
 }
@@ -142,7 +142,7 @@ bool PointStar::keeps_floors(const Measures& before, const Measures& after) cons
 bool PointStar::keeps_floors(const Vec3& before, const Vec3& at) const {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const double there = value(i, at);
-    if (there < weight(i) * terms_[i].rules.floor && there < value(i, before)) return false;
+    if (is_below_floor(i, there) && there < value(i, before)) return false;
   }
   return true;
 }
@@ -292,8 +292,8 @@ Vec3 deepest_point(std::span<const Plane> planes, const Vec3& start) {
   return at;
 }
 
-Placement raise_score_from(const PointStar& star, const PointStar::Measures& start, int steps, double floor,
-                           const Freedom& freedom) {
+Placement raise_score(const PointStar& star, const PointStar::Measures& start, int steps, double floor,
+                      const Freedom& freedom) {
   PointStar::Measures best = start, there;
   const double weighted_floor = std::min(floor, best.worst), unweighted_floor = std::min(floor, best.worst_unweighted);
   double score = star.score_of(best);
@@ -327,10 +327,6 @@ Placement raise_score_from(const PointStar& star, const PointStar::Measures& sta
     if (!moved) break;
   }
   return {best.at, best.worst};
-}
-
-Placement raise_score(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom) {
-  return raise_score_from(star, star.measured(start), steps, floor, freedom);
 }
 
 }  // namespace hexpipe::assemble::shape

@@ -38,11 +38,10 @@ class PointStar {
   double mean_share(std::size_t term) const { return terms_[term].mean_share; }
   // Whether the mean would not count a higher value than this one of the corner.
   bool is_enough(std::size_t term, double value) const { return value / weight(term) >= terms_[term].rules.enough; }
-  // The least value over all corners, weighted and unweighted.
+  // The least value over all corners.
   double worst(const Vec3& at) const;
-  double worst_unweighted(const Vec3& at) const { return measured(at).worst_unweighted; }
 
-  // All that is asked about a place, from one look at each corner.
+  // All that is asked about a place, from one look at each corner; the least value weighted and unweighted.
   struct Measures {
     Vec3 at{};
     std::vector<double> values{};  // by corner
@@ -54,7 +53,6 @@ class PointStar {
   Measures measured(const Vec3& at) const;
   // The mean plus the pull.
   double score_of(const Measures& measures) const { return measures.mean + dot(pull_, measures.at - start_); }
-  double score(const Vec3& at) const { return score_of(measured(at)); }
   // Whether worst(at) > bound; stops at the first corner that is not above it. Fills `values` with what it has seen.
   bool exceeds(const Vec3& at, double bound, std::vector<double>& values) const;
   // False if the move takes a value below its floor, or further below it.
@@ -62,6 +60,8 @@ class PointStar {
   bool keeps_floors(const Measures& before, const Measures& after) const;
 
  private:
+  bool is_below_floor(std::size_t term, double value) const { return value < weight(term) * terms_[term].rules.floor; }
+
   // Either the moving vertex is the corner itself, and `fixed` its three neighbours; or it is one of the neighbours,
   // fixed[0] is the corner, and `normal` the cross product of the unit edges to the other two.
   struct Term {
@@ -97,10 +97,9 @@ struct Placement {
 Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom = {});
 
 // Takes at most `steps` steps that raise the score, none of which takes the least value, weighted or unweighted, below
-// `floor`. The start may have been measured before.
-Placement raise_score_from(const PointStar& star, const PointStar::Measures& start, int steps, double floor,
-                           const Freedom& freedom);
-Placement raise_score(const PointStar& star, const Vec3& start, int steps, double floor, const Freedom& freedom = {});
+// `floor`.
+Placement raise_score(const PointStar& star, const PointStar::Measures& start, int steps, double floor,
+                      const Freedom& freedom = {});
 
 // A plane with its unit normal; points on the normal's side have positive distance.
 struct Plane {

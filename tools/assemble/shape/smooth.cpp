@@ -327,7 +327,7 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
   if (!poor) star_.set_pull(before, worth_of_growth * growth_at(v));
   const double score = star_.score_of(before_);
   const Placement goal = poor ? raise_worst(star_, before, steps_for_worst, freedom(v))
-                              : raise_score_from(star_, before_, steps_for_score, good_enough, freedoms_[v]);
+                              : raise_score(star_, before_, steps_for_score, good_enough, freedoms_[v]);
   if (goal.at == before) return false;
   upright_.clear();
   for (const std::int32_t c : cells_.at(v))
