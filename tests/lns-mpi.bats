@@ -244,6 +244,13 @@ PYTHON
   assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
 }
 
+@test "a rank that alone has a wrong option says so" {
+  run_apart mpirun --oversubscribe -n 1 lns-mpi --graph ring.graph --solution start.sol -o out.sol : \
+    -n 1 lns-mpi --no-such-option
+  assert_equal "$status" 2
+  assert_equal "$(grep -c '^lns-mpi: .*--no-such-option' <<<"$stderr")" 1
+}
+
 @test "a rank that dies ends the job, which names it" {
   local job
   start_long --checkpoint state --checkpoint-interval 0

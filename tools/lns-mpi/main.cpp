@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <iostream>
 
@@ -107,11 +108,19 @@ int main(int argc, char** argv) {
     if (launched_rank() && writes_standard_output(context)) context.streams.output = "/dev/stdout";
     run_on_all_ranks(context, options);
   };
-  if (launched_rank().value_or(0) > 0) {
+  const bool is_silent = launched_rank().value_or(0) > 0;
+  if (is_silent) {
     silence_messages(true);
     std::cout.setstate(std::ios::failbit);
   }
   // mpirun passes this signal on to its processes; after SIGTERM, it ends them within a second.
   stop_searches_also_on(SIGUSR1);
+  const int code = tool_main(argc, argv, info, declare, run);
+  if (code == 0 || !is_silent || Ranks::were_started()) return code;
+  // What is wrong with the options, each rank finds by itself, and the first one that ends makes mpirun end the others.
+  // So the silent ones wait for it. Whom mpirun does not end meanwhile is alone with it, and says it.
+  constexpr unsigned seconds_for_the_first_rank = 5;
+  if (sleep(seconds_for_the_first_rank) != 0) return code;
+  silence_messages(false);
   return tool_main(argc, argv, info, declare, run);
 }

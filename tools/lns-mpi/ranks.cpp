@@ -48,6 +48,12 @@ Ranks::~Ranks() {
   MPI_Finalize();
 }
 
+bool Ranks::were_started() {
+  int started = 0;
+  MPI_Initialized(&started);
+  return started != 0;
+}
+
 void Ranks::abandon() {
   MPI_Abort(MPI_COMM_WORLD, 1);
   std::abort();

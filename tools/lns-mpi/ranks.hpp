@@ -89,6 +89,9 @@ class Ranks {
   void send(int to, const Bytes& bytes);
   Bytes receive(int from);
 
+  // Whether this process has called MPI, which it can do only once.
+  static bool were_started();
+
   // Ends all ranks at once, after this one has said why.
   [[noreturn]] static void abandon();
 
