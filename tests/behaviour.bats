@@ -200,9 +200,10 @@ on_terminal() {
 }
 
 @test "progress is a line on a terminal; -q shows none, lines of -v stay whole, files get none" {
-  optimized_only "a round of the search takes longer than the time limit"
+  optimized_only "it is about the line, which takes long to come there"
   [[ -x "$HEXPIPE_BIN/tetmesh" ]] || skip "tetmesh is not built"
-  local search="tetmesh '$DATA/bracket.stl' --size 8 --improve 1000000 --time-limit 3 -o out.mesh"
+  # Rounds in place of seconds: on a busy machine the first round may take longer than any number of them.
+  local search="tetmesh '$DATA/bracket.stl' --size 8 --improve 12 -o out.mesh"
   on_terminal "$search -v" >shown
   grep -Eq '^tetmesh: [0-9]+ %, (~?[0-9]+ s|~[0-9]+ s left), round [0-9]+, about [0-9.]+ % in hexes$' shown
   grep -Eq '^tetmesh: [0-9]+ changes in [0-9]+ rounds: about' shown
