@@ -22,15 +22,17 @@ struct ModelExtent {
 };
 
 // A suitable distance of points, the least of: a twentieth of the diagonal; half of the mean wall thickness (two
-// layers); the edge of a cube of which 6,000 fill the volume; `longest`. But no less than the edge of a cube of which a
-// million do. Models with fewer cells lose by the size alone: on HexMe hexes have 96.9 % of the volume with the 6,000,
-// and 93.2 without (docs/log/pipeline.md).
+// layers); the edge of a cube of which 6,000 fill the volume; `longest`. But no less than what the machine bears: the
+// edge of a cube of which a million fill the volume, and of a square of which a quarter of a million cover one side of
+// what is thin (one layer of flat hexes then; a million squares took tetmesh 9 GB). Models with fewer cells lose by the
+// size alone: on HexMe hexes have 96.9 % of the volume with the 6,000, and 93.2 without (docs/log/pipeline.md).
 inline double default_size(const ModelExtent& model, double longest) {
-  constexpr double of_diagonal = 0.05, of_thickness = 0.5, fewest_cubes = 6000, most_cubes = 1e6;
+  constexpr double of_diagonal = 0.05, of_thickness = 0.5, fewest_cubes = 6000, most_cubes = 1e6,
+                   most_squares = 250'000;
   const double thickness = 2 * model.volume / model.area;
   const double size = std::min(
       {of_diagonal * model.diagonal, of_thickness * thickness, std::cbrt(model.volume / fewest_cubes), longest});
-  return std::max(size, std::cbrt(model.volume / most_cubes));
+  return std::max({size, std::cbrt(model.volume / most_cubes), std::sqrt(model.area / 2 / most_squares)});
 }
 
 }  // namespace hexpipe

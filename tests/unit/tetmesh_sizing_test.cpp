@@ -47,6 +47,9 @@ TEST(Sizing, DefaultsAreBounded) {
   // Finer than a million points inside: 1 % of the cube root of the volume.
   const Surface fine = surface_of(cube(0, 1, 128));
   EXPECT_NEAR(element_size(fine, {}), 0.01, 1e-12);
+  // A pane of glass: a quarter of a million squares on one side, in place of four million.
+  const double area_of_a_side = 5000.0 * 3000 + 2 * 8000;
+  EXPECT_NEAR(element_size(surface_of(box({0, 0, 0}, {5000, 3000, 2})), {}), std::sqrt(area_of_a_side / 250'000), 1e-9);
 }
 
 TEST(Sizing, ComplainsOfTrianglesFarFromTheSize) {
