@@ -5,13 +5,14 @@ from selenium.webdriver.chrome.service import Service
 
 FLAGS = """--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking
     --disable-component-update --disable-sync --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader
-    --window-size=980,800 --hide-scrollbars""".split()
+    --hide-scrollbars""".split()
 
 
-def start(profile, downloads=None):
+def start(profile, downloads=None, window="980,800"):
+    """A browser with a profile of its own. Software draws each pixel: half the window, half the processor time."""
     options = Options()
     options.binary_location = "/usr/bin/chromium"
-    for flag in FLAGS + [f"--user-data-dir={profile}"]:
+    for flag in FLAGS + [f"--user-data-dir={profile}", f"--window-size={window}"]:
         options.add_argument(flag)
     if downloads:
         options.add_experimental_option("prefs", {"download.default_directory": str(downloads)})

@@ -256,7 +256,7 @@ def main():
     folder.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         downloads = pathlib.Path(profile) / "downloads"
-        browser = chromium.start(profile, downloads)
+        browser = chromium.start(profile, downloads, window="700,560")
         try:
             page = Page(browser, folder)
             page.open(address)
