@@ -4,18 +4,6 @@
 
 namespace hexpipe {
 
-double Box::entry(const Vec3& from, const Vec3& inverse) const {
-  double in = 0, out = std::numeric_limits<double>::max();
-  for (int axis = 0; axis < 3; ++axis) {
-    // A ray in the plane of a side gives 0 times infinity. std::max and std::min ignore that in this order of
-    // arguments.
-    const double one = (low[axis] - from[axis]) * inverse[axis], other = (high[axis] - from[axis]) * inverse[axis];
-    in = std::max(in, std::min(one, other));
-    out = std::min(out, std::max(one, other));
-  }
-  return in <= out ? in : std::numeric_limits<double>::infinity();
-}
-
 BoxTree::BoxTree(std::span<const Box> boxes, std::span<const double> values) : things_(boxes.size()) {
   std::iota(things_.begin(), things_.end(), 0);
   nodes_.reserve(boxes.size());
@@ -25,21 +13,17 @@ BoxTree::BoxTree(std::span<const Box> boxes, std::span<const double> values) : t
 // Splits the things into halves along the longest side of the box of their centres.
 std::int32_t BoxTree::build(std::span<const Box> boxes, std::span<const double> values,
                             std::span<std::int32_t> things) {
-  const auto number = static_cast<std::int32_t>(nodes_.size());
-  Node node{boxes[things[0]], values[things[0]], 0, 0};
-  const Vec3 first_centre = node.box.centre();
+  if (things.size() <= most_beside) {
+    std::vector<Centre> centres;
+    centres.reserve(things.size());
+    for (const std::int32_t i : things) centres.push_back({boxes[i].centre(), i});
+    return build_beside(boxes, values, centres, static_cast<std::int32_t>(things.data() - things_.data()));
+  }
+  const Vec3 first_centre = boxes[things[0]].centre();
   Box centres{first_centre, first_centre};
   for (const std::int32_t i : things) {
-    node.box.add(boxes[i]);
-    node.value = std::min(node.value, values[i]);
     const Vec3 centre = boxes[i].centre();
     centres.add({centre, centre});
-  }
-  nodes_.push_back(node);
-  if (things.size() <= most_in_leaf) {
-    nodes_[number].count = static_cast<std::int32_t>(things.size());
-    nodes_[number].first = static_cast<std::int32_t>(things.data() - things_.data());
-    return number;
   }
   const int axis = centres.longest_axis();
   const std::size_t half = things.size() / 2;
@@ -48,10 +32,49 @@ std::int32_t BoxTree::build(std::span<const Box> boxes, std::span<const double> 
                      const double at_a = boxes[a].centre()[axis], at_b = boxes[b].centre()[axis];
                      return at_a < at_b || (at_a == at_b && a < b);
                    });
+  const auto number = static_cast<std::int32_t>(nodes_.size());
+  nodes_.emplace_back();
   build(boxes, values, things.first(half));
-  const std::int32_t second = build(boxes, values, things.subspan(half));
-  nodes_[number].first = second;
+  join_children(number, build(boxes, values, things.subspan(half)));
   return number;
+}
+
+// The same, with the centres side by side in the cache. They stand for the things from `first` on.
+std::int32_t BoxTree::build_beside(std::span<const Box> boxes, std::span<const double> values,
+                                   std::span<Centre> centres, std::int32_t first) {
+  const auto number = static_cast<std::int32_t>(nodes_.size());
+  nodes_.emplace_back();
+  if (centres.size() <= most_in_leaf) {
+    Node& leaf = nodes_[number];
+    leaf = {boxes[centres[0].thing], values[centres[0].thing], static_cast<std::int32_t>(centres.size()), first};
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      const std::int32_t thing = centres[i].thing;
+      leaf.box.add(boxes[thing]);
+      leaf.value = std::min(leaf.value, values[thing]);
+      things_[first + static_cast<std::int32_t>(i)] = thing;
+    }
+    return number;
+  }
+  Box around{centres[0].at, centres[0].at};
+  for (const Centre& centre : centres) around.add({centre.at, centre.at});
+  const int axis = around.longest_axis();
+  const std::size_t half = centres.size() / 2;
+  std::nth_element(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(half), centres.end(),
+                   [&](const Centre& a, const Centre& b) {
+                     return a.at[axis] < b.at[axis] || (a.at[axis] == b.at[axis] && a.thing < b.thing);
+                   });
+  build_beside(boxes, values, centres.first(half), first);
+  join_children(number, build_beside(boxes, values, centres.subspan(half), first + static_cast<std::int32_t>(half)));
+  return number;
+}
+
+// The first child follows the node.
+void BoxTree::join_children(std::int32_t number, std::int32_t second) {
+  const Node& one = nodes_[number + 1];
+  Node node{one.box, one.value, 0, second};
+  node.box.add(nodes_[second].box);
+  node.value = std::min(node.value, nodes_[second].value);
+  nodes_[number] = node;
 }
 
 BoxTree::BoxTree(std::span<const Box> boxes, std::span<const double> values, std::span<const std::int32_t> owners)

@@ -44,7 +44,17 @@ struct Box {
   }
   // Where a ray enters the box, in lengths of its direction; `inverse` holds the reciprocals of the direction's
   // components. Infinite where the ray misses the box.
-  double entry(const Vec3& from, const Vec3& inverse) const;
+  double entry(const Vec3& from, const Vec3& inverse) const {
+    double in = 0, out = std::numeric_limits<double>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+      // A ray in the plane of a side gives 0 times infinity. std::max and std::min ignore that in this order of
+      // arguments.
+      const double one = (low[axis] - from[axis]) * inverse[axis], other = (high[axis] - from[axis]) * inverse[axis];
+      in = std::max(in, std::min(one, other));
+      out = std::min(out, std::max(one, other));
+    }
+    return in <= out ? in : std::numeric_limits<double>::infinity();
+  }
 };
 
 class BoxTree {
@@ -104,7 +114,17 @@ class BoxTree {
   static constexpr std::int32_t most_in_leaf = 2;
   static constexpr std::size_t most_pending = 128;  // twice the halvings of 2^31 things
 
+  struct Centre {
+    Vec3 at;
+    std::int32_t thing;
+  };
+  // The centres of up to this many things are in the cache while their tree is built: 2 MB.
+  static constexpr std::size_t most_beside = 1 << 16;
+
   std::int32_t build(std::span<const Box> boxes, std::span<const double> values, std::span<std::int32_t> things);
+  std::int32_t build_beside(std::span<const Box> boxes, std::span<const double> values, std::span<Centre> centres,
+                            std::int32_t first);
+  void join_children(std::int32_t number, std::int32_t second);
 
   template <class ValueOf, class Bound>
   double search(double best, ValueOf&& value_of, Bound&& bound) const {
