@@ -19,12 +19,17 @@ void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles
   std::vector<HalfEdge> sorted(half_edge_count), next = offsets;
   for (HalfEdge h = 0; h < half_edge_count; ++h) sorted[next[ends(h).first]++] = h;
 
+  std::vector<std::uint64_t> keys;  // of the half-edges at a vertex: the higher vertex, then the half-edge
   for (std::size_t v = 0; v < vertex_count; ++v) {
     const auto at_vertex = std::span(sorted).subspan(offsets[v], offsets[v + 1] - offsets[v]);
-    std::ranges::sort(at_vertex, {}, [&](HalfEdge h) { return std::pair(ends(h).second, h); });
-    for (std::size_t begin = 0; begin < at_vertex.size();) {
+    keys.clear();
+    for (const HalfEdge h : at_vertex)
+      keys.push_back(static_cast<std::uint64_t>(ends(h).second) << 32 | static_cast<std::uint32_t>(h));
+    std::ranges::sort(keys);
+    for (std::size_t i = 0; i < keys.size(); ++i) at_vertex[i] = static_cast<HalfEdge>(keys[i] & 0xffffffff);
+    for (std::size_t begin = 0; begin < keys.size();) {
       std::size_t end = begin + 1;
-      while (end < at_vertex.size() && ends(at_vertex[end]).second == ends(at_vertex[begin]).second) ++end;
+      while (end < keys.size() && keys[end] >> 32 == keys[begin] >> 32) ++end;
       visit(at_vertex.subspan(begin, end - begin));
       begin = end;
     }

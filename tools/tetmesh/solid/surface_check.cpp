@@ -65,9 +65,16 @@ void check_no_repeated_triangles(const formats::SurfaceSoup& soup, std::string_v
     std::ranges::sort(t);
     return std::pair(t, i);
   };
-  std::vector<std::int32_t> order(soup.triangles.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, key);
+  // A counting sort by the lowest vertex leaves a handful of triangles to sort.
+  std::vector<std::int32_t> offsets(soup.points.size() + 1), order(soup.triangles.size());
+  for (const Triangle& t : soup.triangles) ++offsets[std::ranges::min(t) + 1];
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  for (std::size_t i = order.size(); i-- > 0;)
+    order[--offsets[std::ranges::min(soup.triangles[i]) + 1]] = static_cast<std::int32_t>(i);
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    const std::size_t begin = offsets[v + 1], end = v + 2 < offsets.size() ? offsets[v + 2] : order.size();
+    if (end - begin > 1) std::ranges::sort(std::span(order).subspan(begin, end - begin), {}, key);
+  }
   std::size_t count = 0;
   std::array<std::int32_t, 2> first{};  // the repetition that comes first in the file, and what it repeats
   for (std::size_t i = 1; i < order.size(); ++i) {
