@@ -41,7 +41,8 @@ class Thinner {
         first_gone_(mesh.n_faces(), no_index),
         next_gone_(mesh.n_vertices(), no_index),
         limits_(mesh.n_vertices()),
-        touched_(mesh.n_vertices()) {
+        touched_(mesh.n_vertices()),
+        stuck_(mesh.n_vertices()) {
     for (const FeatureMesh::FaceHandle f : mesh.faces()) normals_.push_back(unit(mesh.area_normal(f)));
   }
 
@@ -54,7 +55,7 @@ class Thinner {
     for (int round = 1; round <= most_rounds; ++round) {
       left.clear();
       for (const auto v : waiting)
-        if (touched_[v.idx()] == round || !remove(v, round)) left.push_back(v);
+        if (touched_[v.idx()] == round || stuck_[v.idx()] || !remove(v, round)) left.push_back(v);
       const auto gone = static_cast<double>(waiting.size() - left.size());
       if (gone < least_gain * static_cast<double>(waiting.size())) break;
       std::swap(waiting, left);
@@ -66,6 +67,7 @@ class Thinner {
   struct Wedge {
     FeatureMesh::FaceHandle face;
     FeatureMesh::VertexHandle from, to;  // of the outer edge
+    FeatureMesh::VertexHandle beyond;    // the third corner of the face across it; `from` at a border
     Vec3 outer_normal;
     bool outer_is_sharp = false;  // a feature, or a border
     bool goes = false;
@@ -99,19 +101,21 @@ class Thinner {
       if (const double shape = shape_after(h, limits.longest); shape > least_shape) choices_.push_back({shape, h});
     std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
     for (const Choice& choice : choices_) {
-      if (!mesh_.is_collapse_ok(choice.collapse)) continue;
-      shape_after(choice.collapse, limits.longest);  // sets the normals
       const auto end = mesh_.to_vertex_handle(choice.collapse);
-      if (!is_smooth_after() || !find_new_faces(end)) continue;
+      if (!turns_little_after(end) || !is_smooth_after() || !mesh_.is_collapse_ok(choice.collapse) ||
+          !find_new_faces(end))
+        continue;
       mesh_.collapse_edge(choice.collapse);
       touched_[end.idx()] = round;
       for (const Wedge& wedge : wedges_) {
         touched_[wedge.from.idx()] = round;
+        stuck_[wedge.from.idx()] = stuck_[wedge.beyond.idx()] = false;
         if (!wedge.goes) normals_[wedge.face.idx()] = wedge.normal;
       }
       hand_over();
       return true;
     }
+    stuck_[v.idx()] = true;
     return false;
   }
 
@@ -132,6 +136,7 @@ class Thinner {
       const auto outer = mesh_.next_halfedge_handle(h), twin = mesh_.opposite_halfedge_handle(outer);
       wedge.to = mesh_.to_vertex_handle(outer);
       wedge.outer_is_sharp = mesh_.is_boundary(twin) || mesh_.is_feature(mesh_.edge_handle(outer));
+      wedge.beyond = mesh_.is_boundary(twin) ? wedge.from : mesh_.to_vertex_handle(mesh_.next_halfedge_handle(twin));
       if (!mesh_.is_boundary(twin)) wedge.outer_normal = normals_[mesh_.face_handle(twin).idx()];
       for (std::int32_t gone = first_gone_[wedge.face.idx()]; gone != no_index; gone = next_gone_[gone])
         gone_.push_back(gone);
@@ -139,24 +144,33 @@ class Thinner {
     }
   }
 
-  // The least shape of the new faces; negative if one turns too far or has too long an edge. Sets the wedges' normals.
+  // The least shape of the new faces; negative if one has too long an edge.
   double shape_after(FeatureMesh::HalfedgeHandle collapse, double longest) {
     const auto end = mesh_.to_vertex_handle(collapse);
     const Vec3 at = mesh_.position(end);
     double least = std::numeric_limits<double>::max();
+    for (const Wedge& wedge : wedges_) {
+      if (wedge.from == end || wedge.to == end) continue;
+      const std::array<Vec3, 3> corners{at, mesh_.position(wedge.from), mesh_.position(wedge.to)};
+      if (norm_squared(corners[1] - at) > longest * longest) return -1;
+      least = std::min(least, shape_of(corners, cross(corners[1] - at, corners[2] - at)));
+      if (least <= least_shape) return -1;
+    }
+    return least;
+  }
+
+  // Whether no new face turns too far from the one that it replaces. Sets which wedges go, and the normals of the
+  // others.
+  bool turns_little_after(FeatureMesh::VertexHandle end) {
+    const Vec3 at = mesh_.position(end);
     for (Wedge& wedge : wedges_) {
       wedge.goes = wedge.from == end || wedge.to == end;
       if (wedge.goes) continue;
-      const std::array<Vec3, 3> corners{at, mesh_.position(wedge.from), mesh_.position(wedge.to)};
-      const Vec3 normal = cross(corners[1] - at, corners[2] - at);
-      if (norm_squared(corners[1] - at) > longest * longest) return -1;
-      least = std::min(least, shape_of(corners, normal));
-      if (least <= least_shape) return -1;
-      wedge.normal = unit(normal);
+      wedge.normal = unit(cross(mesh_.position(wedge.from) - at, mesh_.position(wedge.to) - at));
       const bool turns = dot(wedge.normal, normals_[wedge.face.idx()]) < least_cosine_;
-      if (turns && dot(wedge.normal, normal_around()) < least_cosine_) return -1;
+      if (turns && dot(wedge.normal, normal_around()) < least_cosine_) return false;
     }
-    return least;
+    return true;
   }
 
   // The new face nearest to each vertex that is gone then; false if one is further than its tolerance from all.
@@ -215,6 +229,8 @@ class Thinner {
   std::vector<std::int32_t> first_gone_, next_gone_;
   std::vector<Limits> limits_;         // by vertex
   std::vector<std::int32_t> touched_;  // by vertex: the round in which it was last at a collapse
+  // By vertex: it could not be removed, and no collapse has changed the faces around it or beside these since then.
+  std::vector<bool> stuck_;
   std::vector<Wedge> wedges_;
   std::vector<Choice> choices_;
   std::optional<Vec3> normal_around_;
