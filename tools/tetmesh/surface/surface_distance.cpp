@@ -74,12 +74,12 @@ DistanceIndex::DistanceIndex(std::span<const Vec3> points, std::span<const Trian
   }
   const Vec3 extent = high - low_;
   double area = 0;
-  planes_.reserve(triangles.size());
+  bounds_.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) {
-    const Vec3 normal = cross(points[b] - points[a], points[c] - points[a]);
+    const Vec3 ab = points[b] - points[a], ac = points[c] - points[a], normal = cross(ab, ac);
     const double length = norm(normal);
     area += length;
-    planes_.push_back({points[a], unit(normal)});
+    bounds_.push_back({points[a], unit(normal), std::sqrt(std::max(norm_squared(ab), norm_squared(ac)))});
   }
   const double edge = std::sqrt(area / static_cast<double>(triangles.size()));
   width_ = std::max(edge, std::max({extent.x, extent.y, extent.z}) / most_cells);
@@ -114,10 +114,11 @@ void DistanceIndex::for_each_cell(const Triangle& t, Visit&& visit) const {
 }
 
 double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enough) const {
-  Search search{nearest, std::numeric_limits<double>::max(), enough * enough};
+  constexpr double furthest = std::numeric_limits<double>::max();
+  Search search{nearest, furthest, furthest, enough * enough};
   if (nearest != no_index) {
     const auto [a, b, c] = triangles_[nearest];
-    search.best = geometry::TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
+    search.take(nearest, geometry::TriangleDistance(points_[a], points_[b], points_[c]).squared(p));
   }
   const Cell centre = cell_of(p);
   const std::int64_t rings = std::max({counts_.x, counts_.y, counts_.z});
@@ -129,7 +130,7 @@ double DistanceIndex::distance(const Vec3& p, std::int32_t& nearest, double enou
     if (search.best <= reach * reach) break;
   }
   nearest = search.nearest;
-  return std::sqrt(search.best);
+  return search.distance;
 }
 
 // The distance of a point from the sides of its cell; 0 outside.
@@ -161,16 +162,16 @@ double DistanceIndex::squared_to_box(const Vec3& p, const Cell& cell) const {
 }
 
 void DistanceIndex::look_in_cell(const Vec3& p, const Cell& cell, Search& search) const {
+  constexpr double room = 1 + 1e-9;  // for rounding
   const std::int64_t number = number_of(cell);
   for (std::int64_t i = offsets_[number]; i < offsets_[number + 1] && !search.is_done(); ++i) {
-    const auto& [through, normal] = planes_[members_[i]];
-    const double height = dot(p - through, normal);
-    if (height * height >= search.best) continue;
+    const auto& [corner, normal, radius] = bounds_[members_[i]];
+    const Vec3 way = p - corner;
+    const double height = dot(way, normal), reach = room * (search.distance + radius);
+    if (height * height >= search.best || norm_squared(way) > reach * reach) continue;
     const auto [a, b, c] = triangles_[members_[i]];
     const double squared = geometry::TriangleDistance(points_[a], points_[b], points_[c]).squared(p);
-    if (squared >= search.best) continue;
-    search.best = squared;
-    search.nearest = members_[i];
+    if (squared < search.best) search.take(members_[i], squared);
   }
 }
 

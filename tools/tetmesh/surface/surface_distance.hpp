@@ -1,6 +1,7 @@
 #pragma once
 // How far two surfaces are from each other, measured both ways.
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -32,11 +33,16 @@ class DistanceIndex {
   Cell cell_of(const Vec3& p) const;
   std::int64_t number_of(const Cell& c) const { return (c.z * counts_.y + c.y) * counts_.x + c.x; }
   double margin_in(const Cell& cell, const Vec3& p) const;
-  // The nearest triangle so far with the square of its distance, and the square of `enough`.
+  // The nearest triangle so far with its distance and the square of that, and the square of `enough`.
   struct Search {
     std::int32_t nearest;
-    double best, enough;
+    double best, distance, enough;
     bool is_done() const { return best <= enough; }
+    void take(std::int32_t triangle, double squared) {
+      nearest = triangle;
+      best = squared;
+      distance = std::sqrt(squared);
+    }
   };
   void look_in_shell(const Vec3& p, const Cell& centre, std::int64_t ring, Search& search) const;
   void look_in_cell(const Vec3& p, const Cell& cell, Search& search) const;
@@ -46,10 +52,12 @@ class DistanceIndex {
 
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
-  struct Plane {
-    Vec3 through, normal;  // of length 1
+  struct Bounds {
+    Vec3 corner;    // the first
+    Vec3 normal;    // of length 1
+    double radius;  // of a ball around the corner that holds the triangle
   };
-  std::vector<Plane> planes_;  // of the triangles, through their first corners
+  std::vector<Bounds> bounds_;  // of the triangles
   Vec3 low_;
   double width_;
   Cell counts_{};
