@@ -125,16 +125,18 @@ class LineTracer {
 
 // Each triangle once, from the tet with the lower number.
 void LineTracer::count_in(TetIndex tet, TetRows& rows) const {
-  bool singular = false;
   for (std::size_t facet = 0; facet < 4; ++facet) {
     const TetIndex beyond = adjacency_.tet_beyond(tet, static_cast<int>(facet));
+    if (beyond != no_index && beyond < tet) continue;
     const Triangle corners = corners_of(tet, facet);
     const auto ends = counter_.ends_in(corners);
-    singular = singular || !ends;
-    if (ends && *ends > 0 && (beyond == no_index || tet < beyond))
+    if (!ends) {
+      rows.singular.push_back(tet);
+      if (beyond != no_index) rows.singular.push_back(beyond);
+    } else if (*ends > 0) {
       rows.pierced.push_back({tet, beyond, corners, *ends});
+    }
   }
-  if (singular) rows.singular.push_back(tet);
 }
 
 void LineTracer::find_pierced() {

@@ -42,8 +42,7 @@ class EndStraightener {
   EndStraightener(std::span<const Vec3> fixed, std::vector<RowPoint> points)
       : points_(std::move(points)), place_of_(points_.size()), grid_(points_.front().at) {
     for (const RowPoint& p : points_) width_ += longest_step(p) / static_cast<double>(points_.size());
-    for (const Vec3& p : fixed) add(p, no_index);
-    for (std::size_t i = 0; i < points_.size(); ++i) place_of_[i] = add(points_[i].at, static_cast<std::int32_t>(i));
+    fill_grid(fixed);
   }
 
   std::vector<RowPoint> run() {
@@ -64,6 +63,7 @@ class EndStraightener {
   static double longest_step(const RowPoint& p) {
     return std::max({norm(p.steps[0]), norm(p.steps[1]), norm(p.steps[2])});
   }
+  void fill_grid(std::span<const Vec3> fixed);
   std::int32_t add(const Vec3& at, std::int32_t point) {
     point_at_.push_back(point);
     is_taken_.push_back(true);
@@ -73,7 +73,7 @@ class EndStraightener {
   std::int32_t nearest(const Vec3& to, double reach) const;
   // By axis and sense: the place of the next point in the grid, or no_index; searched when first asked for.
   using NextPoints = std::array<std::optional<std::int32_t>, 6>;
-  bool come_together(const RowPoint& a, const RowPoint& b, std::size_t axis, NextPoints& next_of_a) const;
+  bool come_together(const RowPoint& a, const Vec3& b, std::size_t axis, NextPoints& next_of_a) const;
   std::int32_t partner_of(std::int32_t i) const;
   void merge_at(std::int32_t i);
   std::vector<std::int32_t> beside_changes() const;
@@ -86,6 +86,34 @@ class EndStraightener {
   std::vector<bool> is_taken_;          // by place in the grid
   std::vector<std::int32_t> changed_;   // points that others were merged into in this pass
 };
+
+// Points come in no order of space. In the grid they stand in the order of its cells, so that those around a point are
+// near each other in memory, whose latency is the time of a search.
+void EndStraightener::fill_grid(std::span<const Vec3> fixed) {
+  const Vec3& origin = points_.front().at;
+  const auto cell_of = [&](const Vec3& p) {
+    const auto along = [&](int axis) {
+      return static_cast<std::int64_t>(std::floor((p[axis] - origin[axis]) / width_));
+    };
+    return geometry::GridCell{along(2), along(1), along(0)};
+  };
+  struct Placed {
+    geometry::GridCell cell;
+    std::int32_t number;  // of the fixed points, then of the others
+  };
+  std::vector<Placed> order;
+  order.reserve(fixed.size() + points_.size());
+  for (const Vec3& p : fixed) order.push_back({cell_of(p), static_cast<std::int32_t>(order.size())});
+  for (const RowPoint& p : points_) order.push_back({cell_of(p.at), static_cast<std::int32_t>(order.size())});
+  std::ranges::sort(order, {}, [](const Placed& p) { return std::pair(p.cell, p.number); });
+  const auto fixed_count = static_cast<std::int32_t>(fixed.size());
+  for (const auto& [cell, number] : order) {
+    if (number < fixed_count)
+      add(fixed[number], no_index);
+    else
+      place_of_[number - fixed_count] = add(points_[number - fixed_count].at, number - fixed_count);
+  }
+}
 
 // The place in the grid, or no_index.
 std::int32_t EndStraightener::nearest(const Vec3& to, double reach) const {
@@ -103,8 +131,7 @@ std::int32_t EndStraightener::nearest(const Vec3& to, double reach) const {
 }
 
 // Whether a single point is the next one of both, along the axis in either sense.
-bool EndStraightener::come_together(const RowPoint& a, const RowPoint& b, std::size_t axis,
-                                    NextPoints& next_of_a) const {
+bool EndStraightener::come_together(const RowPoint& a, const Vec3& b, std::size_t axis, NextPoints& next_of_a) const {
   const double reach = reach_of_step * norm(a.steps[axis]);
   for (const bool backwards : {false, true}) {
     const Vec3 step = (backwards ? -1.0 : 1.0) * a.steps[axis];
@@ -112,8 +139,8 @@ bool EndStraightener::come_together(const RowPoint& a, const RowPoint& b, std::s
     if (!next) next = nearest(a.at + step, reach);
     if (*next == no_index) continue;
     // In a regular lattice it is out of reach, which spares nearly all further searches.
-    if (norm_squared(grid_.points()[*next] - (b.at + step)) >= reach * reach) continue;
-    if (*next == nearest(b.at + step, reach)) return true;
+    if (norm_squared(grid_.points()[*next] - (b + step)) >= reach * reach) continue;
+    if (*next == nearest(b + step, reach)) return true;
   }
   return false;
 }
@@ -127,8 +154,8 @@ std::int32_t EndStraightener::partner_of(std::int32_t i) const {
   grid_.for_each_near(a.at, furthest_pair * longest_step(a), 0, [&](std::int32_t place) {
     const std::int32_t other = point_at_[place];
     if (!is_taken_[place] || other <= i) return true;
-    const RowPoint& b = points_[other];
-    const auto axis = axis_of_pair(in_steps(b.at - a.at));
+    const Vec3& b = grid_.points()[place];
+    const auto axis = axis_of_pair(in_steps(b - a.at));
     if (axis && come_together(a, b, (*axis + 1) % 3, next) && come_together(a, b, (*axis + 2) % 3, next))
       partner = other;
     return partner == no_index;
