@@ -102,7 +102,8 @@ std::vector<float> plain_correction(std::span<const float> distances, const Loop
 }
 
 // Loops over `links` links in a row, most of them in bundles of K: three links each, with axes in several orders and
-// senses. Every seventh link has a loop for one axis alone, every eleventh two loops that are no bundle.
+// senses. Every other link has plain triangles, too: each axis meets itself, in one sense. Every seventh link has a
+// loop for one axis alone, every eleventh two loops that are no bundle.
 template <std::size_t K>
 Loops loops_over(std::int32_t links) {
   Loops loops;
@@ -116,6 +117,12 @@ Loops loops_over(std::int32_t links) {
       loops.add_step(number(i + 3, K - 1 - (k + turn) % K), (turn + k) % 2 == 1);
       loops.add_step(number(i + 1, k + turn), true);
       loops.close(i % 3 == 0 ? 1 : 0);
+    }
+    for (std::size_t k = 0; i % 2 == 0 && k < K; ++k) {
+      loops.add_step(number(i, k), (i & 2) != 0);
+      loops.add_step(number(i + 1, k), (i & 4) != 0);
+      loops.add_step(number(i + 3, k), (i & 8) != 0);
+      loops.close(0.25);
     }
     if (i % 7 == 0) {
       loops.add_step(number(i, turn), false);

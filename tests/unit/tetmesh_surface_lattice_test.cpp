@@ -32,6 +32,7 @@ struct Prepared {
   FieldSurface surface;
   std::vector<OppositeSide> opposite;
   CrossField field;
+  std::vector<float> corrections;
   std::vector<SurfacePoint> points;
 
  private:
@@ -40,7 +41,7 @@ struct Prepared {
         surface(mesh, size),
         opposite(knows_sides ? opposite_sides(surface) : std::vector<OppositeSide>()),
         field(cross_field(surface, opposite)),
-        points(surface_lattice(surface, field, opposite, kept).points) {}
+        points(surface_lattice(surface, field, opposite, kept, 0, {}, corrections).points) {}
 
   static FeatureMesh mesh_of(const Surface& whole, double size) {
     FeatureMesh mesh(whole, 40);

@@ -169,14 +169,14 @@ class Bundles {
   bool add_bundle(const Loops& loops, std::size_t first);
   std::size_t add_one(const Loops& loops, std::size_t loop);
   void close(const Values<K>& wanted) {
-    ends_.push_back(static_cast<std::int64_t>(links_.size()));
+    ends_.push_back(static_cast<std::uint32_t>(links_.size()));
     wanted_.push_back(wanted);
   }
 
-  std::vector<std::int64_t> ends_{0};  // of each bundle's steps
-  std::vector<std::int32_t> links_;    // of each step
-  std::vector<std::uint8_t> codes_;    // of each step
-  ValuesOfAll<K> wanted_;              // the sums of each bundle
+  std::vector<std::uint32_t> ends_{0};  // of each bundle's steps
+  std::vector<std::int32_t> links_;     // of each step
+  std::vector<std::uint8_t> codes_;     // of each step
+  ValuesOfAll<K> wanted_;               // the sums of each bundle
 };
 
 // Adds K loops if they lead along the same links, over different numbers, and over no link twice: then the order of

@@ -193,9 +193,7 @@ void add_rows_between(const SurfaceLinks& links, geometry::HalfEdge feature, fie
   loops.close(strip->before + strip->after - fields::layers_across(strip->width));
 }
 
-}  // namespace
-
-void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
+std::vector<float> find_corrections(const SurfaceLinks& links, std::span<const Vertex> kept) {
   fields::Loops loops = loops_around_vertices(links);
   const std::vector<double> step_length = step_lengths(links.surface, kept);
   for_each_fan(links, [&](const FeatureFan& fan) {
@@ -205,12 +203,18 @@ void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
   for_each_corner(links, [&](geometry::HalfEdge h) { add_corner(links, h, loops); });
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(links.of.size()); ++h)
     if (links.surface.feature[h]) add_rows_between(links, h, loops);
-  const std::vector<float> correction = fields::curl_correction<2>(distances_of(links), loops, curl_limits);
+  return fields::curl_correction<2>(distances_of(links), loops, curl_limits);
+}
+
+}  // namespace
+
+void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept, std::vector<float>& corrections) {
+  if (corrections.empty()) corrections = find_corrections(links, kept);
   links.change_distances([&](geometry::HalfEdge h, SurfaceLink& link) {
     const std::int32_t f = geometry::triangle_of(h);
     const double longest =
         most_strain * norm(links.surface.centres[f] - links.surface.centres[link.neighbour]) / links.surface.sizes[f];
-    link.correct(std::span(correction).subspan(SurfaceLinks::number_of(h, 0), 2), longest);
+    link.correct(std::span(corrections).subspan(SurfaceLinks::number_of(h, 0), 2), longest);
   });
 }
 

@@ -89,7 +89,7 @@ DistanceIndex::DistanceIndex(std::span<const Vec3> points, std::span<const Trian
   for (const Triangle& t : triangles) for_each_cell(t, [&](std::int64_t cell) { ++offsets_[cell + 1]; });
   for (std::size_t i = 1; i < offsets_.size(); ++i) offsets_[i] += offsets_[i - 1];
   members_.resize(offsets_.back());
-  std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
+  std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for_each_cell(triangles[i], [&](std::int64_t cell) { members_[next[cell]++] = static_cast<std::int32_t>(i); });
 }

@@ -61,7 +61,7 @@ class DistanceIndex {
   Vec3 low_;
   double width_;
   Cell counts_{};
-  std::vector<std::int64_t> offsets_;
+  std::vector<std::uint32_t> offsets_;  // by cell, of its members
   std::vector<std::int32_t> members_;
 };
 

@@ -245,8 +245,8 @@ void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook,
 
 FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
                           std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch,
-                          const RowGuide& guide) {
-  const SurfaceLattice lattice = surface_lattice(surface, field, opposite, kept, row_stretch, guide);
+                          const RowGuide& guide, std::vector<float>& corrections) {
+  const SurfaceLattice lattice = surface_lattice(surface, field, opposite, kept, row_stretch, guide, corrections);
   return {SurfaceFront(surface, field, size).run(lattice, kept, guide.points), lattice.row_ends};
 }
 

@@ -17,9 +17,9 @@ struct FrontPoints {
 };
 
 // `kept` holds the vertices of the surface that are points already: those of its feature curves. `row_stretch`: see
-// surface_lattice.hpp, and for `guide`.
+// surface_lattice.hpp, and for `guide` and `corrections`.
 FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
                           std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch,
-                          const RowGuide& guide = {});
+                          const RowGuide& guide, std::vector<float>& corrections);
 
 }  // namespace hexpipe::tetmesh::surface

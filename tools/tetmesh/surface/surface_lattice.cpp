@@ -185,8 +185,10 @@ class LatticeMaker {
     greatest_size_ = std::ranges::max(surface.sizes);
   }
 
-  SurfaceLattice make(std::span<const Vertex> kept, double row_stretch, const RowGuide& guide) {
-    weigh_links(kept);
+  SurfaceLattice make(std::span<const Vertex> kept, double row_stretch, const RowGuide& guide,
+                      std::vector<float>& corrections) {
+    correct_curl(links_, kept, corrections);
+    weigh_links();
     make_anchors(kept);
     if (guide.coordinates) follow(guide);
     PhaseSolver solver(links_, across_, degrees_, targets_);
@@ -225,7 +227,7 @@ class LatticeMaker {
     parallel_for(static_cast<std::int64_t>(phases_.size()), 512,
                  [&](std::int64_t f) { body(static_cast<std::int32_t>(f)); });
   }
-  void weigh_links(std::span<const Vertex> kept);
+  void weigh_links();
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
   void follow(const RowGuide& guide);
@@ -252,8 +254,7 @@ class LatticeMaker {
   std::vector<Proposal> proposals_;
 };
 
-void LatticeMaker::weigh_links(std::span<const Vertex> kept) {
-  correct_curl(links_, kept);
+void LatticeMaker::weigh_links() {
   links_.for_each_pair([&](geometry::HalfEdge h) {
     degrees_[geometry::triangle_of(h)] += links_.of[h].weight;
     degrees_[geometry::triangle_of(surface_.twins[h])] += links_.of[h].weight;
@@ -411,8 +412,8 @@ Proposal LatticeMaker::agreed(const fields::ProposalIndex<Proposal>& index, cons
 
 SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
                                std::span<const OppositeSide> opposite, std::span<const Vertex> kept, double row_stretch,
-                               const RowGuide& guide) {
-  return LatticeMaker(surface, field, opposite).make(kept, row_stretch, guide);
+                               const RowGuide& guide, std::vector<float>& corrections) {
+  return LatticeMaker(surface, field, opposite).make(kept, row_stretch, guide, corrections);
 }
 
 }  // namespace hexpipe::tetmesh::surface

@@ -36,9 +36,10 @@ struct SurfaceLattice {
 // `kept` are the vertices of the surface that are points already. `opposite` says which sides face each other across
 // the inside of the model: rows lead from one to the other. `row_stretch` is the most by which the distance between two
 // neighbouring triangles of the field may change, in sizes, to join two rows that would end; 0 joins none. With a
-// guide, the lattice is that of the guide wherever it is certain.
+// guide, the lattice is that of the guide wherever it is certain. `corrections` are those of surface_curl.hpp: a second
+// lattice on the same surface, field and vertices needs no others, with or without a guide.
 SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
-                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept,
-                               double row_stretch = 0, const RowGuide& guide = {});
+                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept, double row_stretch,
+                               const RowGuide& guide, std::vector<float>& corrections);
 
 }  // namespace hexpipe::tetmesh::surface

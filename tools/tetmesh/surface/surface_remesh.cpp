@@ -99,6 +99,7 @@ class SurfaceRemesher::Work {
     FieldSurface surface;
     FieldAndSides field;
     double row_stretch;
+    std::vector<float> corrections = {};  // of distances, since the first lattice
   };
 
   const solid::Surface& given_;
@@ -188,8 +189,9 @@ bool SurfaceRemesher::Work::place_points() {
 }
 
 void SurfaceRemesher::Work::place_front(const RowGuide& guide) {
-  const auto& [mesh, kept, surface, field, row_stretch] = *carrier_;
-  const auto [points, row_ends] = surface_front(surface, field.field, field.opposite, kept, size_, row_stretch, guide);
+  auto& [mesh, kept, surface, field, row_stretch, corrections] = *carrier_;
+  const auto [points, row_ends] =
+      surface_front(surface, field.field, field.opposite, kept, size_, row_stretch, guide, corrections);
   insert_points(prepared_, points, snap * size_);
   result.feature_points = count_places(kept);
   result.front_points = points.size();
