@@ -3,6 +3,7 @@
 // are solved. It may be empty: then the solution is known.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,13 +16,17 @@ namespace hexpipe::mwis::local_search {
 class Remainder {
  public:
   // Takes a share of the time that is left, or as much as it needs if there is no limit.
+  // Large graphs with many conflicts are not reduced where a sample of them shows that this decides few vertices.
+  // `graph` must live as long as the remainder.
   Remainder(const graph::ConflictGraph& graph, const Deadline& deadline);
+  Remainder(const Remainder&) = delete;
+  Remainder& operator=(const Remainder&) = delete;
 
-  const graph::ConflictGraph& graph() const { return graph_; }
+  const graph::ConflictGraph& graph() const { return is_whole_ ? kernel() : graph_; }
   // Whether lift() of the empty set is optimal.
-  bool is_solved() const { return graph_.vertex_count() == 0; }
+  bool is_solved() const { return graph().vertex_count() == 0; }
   // How much heavier a solution of the remainder becomes by the lift, at least.
-  std::int64_t offset() const { return kernel_.offset() + solved_weight_; }
+  std::int64_t offset() const { return (kernel_ ? kernel_->offset() : 0) + solved_weight_; }
 
   // A maximal independent set of the whole graph from one of the remainder.
   graph::IndependentSet lift(const graph::IndependentSet& of_remainder) const;
@@ -31,12 +36,15 @@ class Remainder {
   std::vector<std::int32_t> originals(std::span<const std::int32_t> of_remainder) const;
 
  private:
+  const graph::ConflictGraph& kernel() const { return kernel_ ? kernel_->graph() : whole_; }
   void solve_components(const Deadline& deadline);
   std::vector<std::int32_t> in_kernel(std::span<const std::int32_t> of_remainder) const;
 
-  reduce::Kernel kernel_;
+  const graph::ConflictGraph& whole_;
+  std::optional<reduce::Kernel> kernel_;  // none: nothing was reduced, and `kernel` means the whole graph
+  bool is_whole_ = false;                 // no component of the kernel was solved; there is no copy of it then
   graph::ConflictGraph graph_;
-  std::vector<std::int32_t> vertices_;  // by vertex of the remainder: its number in the kernel, ascending
+  std::vector<std::int32_t> vertices_;  // by vertex of graph_: its number in the kernel, ascending
   graph::IndependentSet solved_;        // in the kernel, of the components that are solved
   std::int64_t solved_weight_ = 0;
 };
