@@ -232,15 +232,15 @@ TEST(Initsol, CoolsALargeGraphSlowlyOnlyWhereTrialsSaySo) {
   const std::vector<std::int64_t> weights = hexpipe::testing::random_weights(vertices, 1000, random);
   const ConflictGraph cliques = make_graph(weights, edges);
   const InitsolResult soon = find_initial_solution(cliques, {}, options, no_deadline);
-  EXPECT_EQ(soon.iterations, 2 * vertices / 4);
+  EXPECT_EQ(soon.iterations, vertices / 4) << "one trial, because it gains nothing";
   std::int64_t best = 0;
   for (std::int32_t v = 0; v < vertices; v += 8)
     best += *std::max_element(weights.begin() + v, weights.begin() + v + 8);
   EXPECT_EQ(soon.weight, best);
 }
 
-// Groups of 16 vertices against 24: greedy takes the 16, and no swap of one for two leaves this local optimum, which is far
-// from the best.
+// Groups of 16 vertices against 24: greedy takes the 16, and no swap of one for two leaves this local optimum, which is
+// far from the best.
 ConflictGraph groups(std::int32_t count) {
   std::vector<std::int64_t> weights;
   std::vector<std::pair<std::int32_t, std::int32_t>> edges;
