@@ -37,6 +37,18 @@ TEST(StopRule, JudgesASampleByWhatTheWholeWouldGain) {
   EXPECT_TRUE(rule.is_done()) << "nine of the whole";
 }
 
+TEST(StopRule, ExpectsNoMoreOfTheWholeThanOfWhatIsStillUnseen) {
+  StopRule rule(10, 100, 1000);
+  rule.record(0, 1000);
+  rule.record(90, 1003);
+  rule.record(100, 1003, 4);
+  EXPECT_FALSE(rule.is_done()) << "12 in four times the work";
+  rule.record(100, 1003, 3);
+  EXPECT_TRUE(rule.is_done()) << "9 in three times the work";
+  rule.record(100, 1003, 20);
+  EXPECT_FALSE(rule.is_done()) << "30 in the whole work";
+}
+
 TEST(StopRule, NeverEndsWithoutALeastGain) {
   StopRule rule(0, 1, 1);
   rule.record(0, 1000);
