@@ -49,6 +49,15 @@ TEST(StopRule, ExpectsNoMoreOfTheWholeThanOfWhatIsStillUnseen) {
   EXPECT_FALSE(rule.is_done()) << "30 in the whole work";
 }
 
+TEST(StopRule, ExpectsTheWholeOfASearchThatHasGainedEnough) {
+  StopRule rule(10, 50, 1000);
+  rule.record(0, 1000);
+  rule.record(10, 1020, 3);
+  rule.record(60, 1023, 3);
+  rule.record(100, 1023, 3);
+  EXPECT_FALSE(rule.is_done()) << "9 in three times the work, but 30 in the whole, and it has 23";
+}
+
 TEST(StopRule, NeverEndsWithoutALeastGain) {
   StopRule rule(0, 1, 1);
   rule.record(0, 1000);

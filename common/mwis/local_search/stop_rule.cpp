@@ -13,8 +13,10 @@ void StopRule::record(double work, std::int64_t weight, double most_times) {
 
 bool StopRule::is_done() const {
   if (least_gain_ <= 0 || work_ < least_work_ || points_.empty()) return false;
-  const double to_whole = std::max(1.0, std::min(whole_work_ / work_, most_times_));
-  return to_whole * static_cast<double>(points_.back().weight - points_[half_].weight) < least_gain_;
+  const auto gain_since = [&](const Point& point) { return static_cast<double>(points_.back().weight - point.weight); };
+  double times = whole_work_ / work_;
+  if (gain_since(points_.front()) < least_gain_) times = std::min(times, most_times_);
+  return std::max(1.0, times) * gain_since(points_[half_]) < least_gain_;
 }
 
 }  // namespace hexpipe::mwis::local_search
