@@ -4,13 +4,32 @@
 
 namespace hexpipe {
 
+namespace {
+
+// Puts the things whose centres are lower along the longest side of the box around all centres into the first half. The
+// number decides between equal centres. Returns how many they are.
+template <class Thing, class CentreOf, class NumberOf>
+std::size_t halve(std::span<Thing> things, CentreOf&& centre_of, NumberOf&& number_of) {
+  Box around{centre_of(things[0]), centre_of(things[0])};
+  for (const Thing& thing : things) around.add({centre_of(thing), centre_of(thing)});
+  const int axis = around.longest_axis();
+  const std::size_t half = things.size() / 2;
+  std::nth_element(things.begin(), things.begin() + static_cast<std::ptrdiff_t>(half), things.end(),
+                   [&](const Thing& a, const Thing& b) {
+                     const double at_a = centre_of(a)[axis], at_b = centre_of(b)[axis];
+                     return at_a < at_b || (at_a == at_b && number_of(a) < number_of(b));
+                   });
+  return half;
+}
+
+}  // namespace
+
 BoxTree::BoxTree(std::span<const Box> boxes, std::span<const double> values) : things_(boxes.size()) {
   std::iota(things_.begin(), things_.end(), 0);
   nodes_.reserve(boxes.size());
   if (!things_.empty()) build(boxes, values, things_);
 }
 
-// Splits the things into halves along the longest side of the box of their centres.
 std::int32_t BoxTree::build(std::span<const Box> boxes, std::span<const double> values,
                             std::span<std::int32_t> things) {
   if (things.size() <= most_beside) {
@@ -19,19 +38,8 @@ std::int32_t BoxTree::build(std::span<const Box> boxes, std::span<const double> 
     for (const std::int32_t i : things) centres.push_back({boxes[i].centre(), i});
     return build_beside(boxes, values, centres, static_cast<std::int32_t>(things.data() - things_.data()));
   }
-  const Vec3 first_centre = boxes[things[0]].centre();
-  Box centres{first_centre, first_centre};
-  for (const std::int32_t i : things) {
-    const Vec3 centre = boxes[i].centre();
-    centres.add({centre, centre});
-  }
-  const int axis = centres.longest_axis();
-  const std::size_t half = things.size() / 2;
-  std::nth_element(things.begin(), things.begin() + static_cast<std::ptrdiff_t>(half), things.end(),
-                   [&](std::int32_t a, std::int32_t b) {
-                     const double at_a = boxes[a].centre()[axis], at_b = boxes[b].centre()[axis];
-                     return at_a < at_b || (at_a == at_b && a < b);
-                   });
+  const std::size_t half = halve(
+      things, [&](std::int32_t i) { return boxes[i].centre(); }, [](std::int32_t i) { return i; });
   const auto number = static_cast<std::int32_t>(nodes_.size());
   nodes_.emplace_back();
   build(boxes, values, things.first(half));
@@ -55,14 +63,8 @@ std::int32_t BoxTree::build_beside(std::span<const Box> boxes, std::span<const d
     }
     return number;
   }
-  Box around{centres[0].at, centres[0].at};
-  for (const Centre& centre : centres) around.add({centre.at, centre.at});
-  const int axis = around.longest_axis();
-  const std::size_t half = centres.size() / 2;
-  std::nth_element(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(half), centres.end(),
-                   [&](const Centre& a, const Centre& b) {
-                     return a.at[axis] < b.at[axis] || (a.at[axis] == b.at[axis] && a.thing < b.thing);
-                   });
+  const std::size_t half = halve(
+      centres, [](const Centre& c) -> const Vec3& { return c.at; }, [](const Centre& c) { return c.thing; });
   build_beside(boxes, values, centres.first(half), first);
   join_children(number, build_beside(boxes, values, centres.subspan(half), first + static_cast<std::int32_t>(half)));
   return number;

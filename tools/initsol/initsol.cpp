@@ -28,8 +28,9 @@ constexpr std::int32_t least_to_try = 20000;
 // trial gains, or by how far the first local optimum is from the best; and by what a third gains: on a scan of spot the
 // first optimum is as far from the best, yet cooling for 90 s found 0.001 % more than the trials had.
 constexpr double moves_a_vertex_of_trial = 0.25, least_gain_of_trial = 1e-4, far_from_optimum = 5e-3;
-// A second trial gains at most a tenth of what the first gained (random-33k), on graphs of hexes a twentieth. So it is
-// made only after a gain that leaves it enough. On mambo-m6 the first gains 0.011 %, and a second 0.0003 % in 2.6 s.
+// In a run on each of a few graphs a second trial gained at most a tenth of what the first gained (random-33k), on
+// graphs of hexes a twentieth. So it is made only after a gain that leaves it enough. On mambo-m6 the first gains 0.011
+// %, and a second 0.0003 % in 2.6 s.
 constexpr double least_gain_before_second_trial = 5 * least_gain_of_trial;
 
 graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vector<double> merits,

@@ -25,8 +25,6 @@ constexpr int kicks_a_vertex = 20;
 // Annealed fragments may be this many times as large as wanted. Only hubs make them so large, and a hub can be
 // replaced by all its neighbours in no other way.
 constexpr std::size_t hub_factor = 16;
-// What holds for large graphs only, begins at this many vertices.
-constexpr std::int32_t large_count = 65536;
 // When exact fragments have gone over all of a large graph this often, the rule expects no more of the rest than of the
 // last half. On graphs of hexes nearly all gains come from the first time.
 constexpr double times_over_graph = 4;
@@ -44,7 +42,7 @@ double vertices_of_whole(const graph::ConflictGraph& graph) {
 // gain comes within a twentieth of a cooling. In a large graph one place is a smaller share of the weight, and half of
 // the work is enough: on six graphs of hexes of 88,000 vertices and more, the second half gained nothing.
 double vertices_of_sample(const graph::ConflictGraph& graph) {
-  const double sample = graph.vertex_count() > large_count ? 15000 : 30000;
+  const double sample = graph.vertex_count() > most_of_a_small_graph ? 15000 : 30000;
   return std::min(sample, vertices_of_whole(graph));
 }
 
@@ -114,7 +112,7 @@ class Lns {
   // How many times its work the search needs at most to see enough of the graph.
   double times_left() const {
     const std::int32_t vertices = state_.graph().vertex_count();
-    if (vertices <= large_count || seen_ == 0) return std::numeric_limits<double>::infinity();
+    if (vertices <= most_of_a_small_graph || seen_ == 0) return std::numeric_limits<double>::infinity();
     return times_over_graph * static_cast<double>(vertices) / seen_;
   }
   Schedule& schedule_of(Operator op) { return schedules_[index_of(op)]; }

@@ -20,9 +20,7 @@ constexpr std::int64_t most_nodes = 5000;
 constexpr int most_failures = 3;
 
 // Reductions of a graph of a million hexes take 5 s, and decide 3 % of the vertices; copying the rest takes 2 s more.
-// The search of all of it takes 10 s, so graphs of more vertices than this are sampled first. Of smaller graphs, a
-// search by default visits each vertex often.
-constexpr std::int32_t least_to_sample = 65536;
+// The search of all of it takes 10 s, so large graphs are sampled first.
 constexpr std::int32_t samples = 8;
 constexpr std::size_t vertices_a_sample = 2048;
 // Of the sampled vertices, reductions have to decide this share. They decide 0.5 to 3 % of graphs of hexes.
@@ -75,7 +73,7 @@ bool decides_enough(const graph::ConflictGraph& graph, const Deadline& deadline)
 }
 
 bool is_worth_reducing(const graph::ConflictGraph& graph, const Deadline& deadline) {
-  return graph.vertex_count() < least_to_sample || is_sparse(graph) || decides_enough(graph, deadline);
+  return graph.vertex_count() <= most_of_a_small_graph || is_sparse(graph) || decides_enough(graph, deadline);
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "common/mesh/joined_sets.hpp"
+#include "common/mesh/vertex_items.hpp"
 #include "common/run/error.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
@@ -60,26 +60,25 @@ void check_no_degenerate_triangles(const formats::SurfaceSoup& soup, std::string
 }
 
 void check_no_repeated_triangles(const formats::SurfaceSoup& soup, std::string_view remedy) {
-  auto key = [&](std::int32_t i) {
-    Triangle t = soup.triangles[i];
-    std::ranges::sort(t);
-    return std::pair(t, i);
-  };
-  // A counting sort by the lowest vertex leaves a handful of triangles to sort.
-  std::vector<std::int32_t> offsets(soup.points.size() + 1), order(soup.triangles.size());
-  for (const Triangle& t : soup.triangles) ++offsets[std::ranges::min(t) + 1];
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  for (std::size_t i = order.size(); i-- > 0;)
-    order[--offsets[std::ranges::min(soup.triangles[i]) + 1]] = static_cast<std::int32_t>(i);
-  for (std::size_t v = 0; v < soup.points.size(); ++v) {
-    const std::size_t begin = offsets[v + 1], end = v + 2 < offsets.size() ? offsets[v + 2] : order.size();
-    if (end - begin > 1) std::ranges::sort(std::span(order).subspan(begin, end - begin), {}, key);
-  }
+  // Triangles that are the same have the same lowest vertex, which leaves a handful at a time to sort.
+  const VertexItems at_lowest(soup.points.size(), [&](auto&& visit) {
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+      visit(std::ranges::min(soup.triangles[t]), static_cast<std::int32_t>(t));
+  });
+  std::vector<std::pair<Triangle, std::int32_t>> sorted;  // corners, ascending, and number
   std::size_t count = 0;
   std::array<std::int32_t, 2> first{};  // the repetition that comes first in the file, and what it repeats
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (key(order[i]).first != key(order[i - 1]).first) continue;
-    if (count++ == 0 || order[i] < first[0]) first = {order[i], order[i - 1]};
+  for (Vertex v = 0; v < static_cast<Vertex>(soup.points.size()); ++v) {
+    sorted.clear();
+    for (const std::int32_t t : at_lowest.at(v)) {
+      sorted.emplace_back(soup.triangles[t], t);
+      std::ranges::sort(sorted.back().first);
+    }
+    std::ranges::sort(sorted);
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i].first != sorted[i - 1].first) continue;
+      if (count++ == 0 || sorted[i].second < first[0]) first = {sorted[i].second, sorted[i - 1].second};
+    }
   }
   if (count == 0) return;
   throw DataError::at(soup.place_of(first[0]),
