@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "assemble_lattice.hpp"
 #include "common/mesh/adjacency.hpp"
@@ -47,6 +49,31 @@ TetMesh ring(int n, double half_length) {
 
 HybridMesh hybrid_of(const TetMesh& mesh) {
   return HybridMesh(mesh, std::vector<bool>(mesh.tets.size()));
+}
+
+// The tets are looked for at the vertex that has fewest, which must not be seen in the results of what asks.
+TEST(HybridMesh, GivesTheTetsAtAnEdgeInTheSameOrderFromBothEnds) {
+  HybridMesh hybrid = hybrid_of(ring(6, 0.3));
+  hybrid.remove_tet(TetIndex(1));
+  hybrid.remove_tet(TetIndex(4));
+  hybrid.add_tet({0, 1, 3, 4}, 1);
+  hybrid.restore_tet(TetIndex(4));
+  const auto has = [&](TetIndex t, Vertex v) {
+    const Tet& tet = hybrid.tet(t);
+    return std::ranges::find(tet, v) != tet.end();
+  };
+  for (Vertex a = 0; a < 8; ++a)
+    for (Vertex b = 0; b < 8; ++b) {
+      if (a == b) continue;
+      std::vector<TetIndex> found, expected;
+      hybrid.tets_around_edge(a, b, found);
+      hybrid.for_tets_at(a, [&](TetIndex t) {
+        if (has(t, b)) expected.push_back(t);
+      });
+      EXPECT_EQ(found, expected) << a << ' ' << b;
+    }
+  EXPECT_EQ(hybrid.tet_at({0, 1, 4}, TetIndex(2)), TetIndex(6));
+  EXPECT_EQ(hybrid.tet_at({4, 1, 0}, TetIndex(6)), TetIndex(2));
 }
 
 TEST(Flip, AFacetGivesWayToAnEdge) {

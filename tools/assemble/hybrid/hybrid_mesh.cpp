@@ -1,5 +1,7 @@
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <utility>
 
@@ -31,6 +33,7 @@ HybridMesh::HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed,
       alive_(mesh.tets.size(), 0),
       first_(mesh.points.size(), no_index),
       next_(4 * mesh.tets.size(), no_index),
+      tet_counts_(mesh.points.size(), 0),
       cells_(std::move(cells)),
       quads_(std::move(quads)) {
   assert(removed.size() == tets_.size());
@@ -41,6 +44,7 @@ HybridMesh::HybridMesh(const TetMesh& mesh, const std::vector<bool>& removed,
 Vertex HybridMesh::add_point(const Vec3& at) {
   points.push_back(at);
   first_.push_back(no_index);
+  tet_counts_.push_back(0);
   quads_.add_vertex();
   return static_cast<Vertex>(points.size() - 1);
 }
@@ -52,6 +56,7 @@ void HybridMesh::link(TetIndex t) {
     const std::int64_t slot = 4 * static_cast<std::int64_t>(t) + i;
     next_[slot] = first_[tets_[t][i]];
     first_[tets_[t][i]] = slot;
+    ++tet_counts_[tets_[t][i]];
   }
 }
 
@@ -63,6 +68,7 @@ void HybridMesh::unlink(TetIndex t) {
     std::int64_t* at = &first_[tets_[t][i]];
     while (*at != slot) at = &next_[*at];
     *at = next_[slot];
+    --tet_counts_[tets_[t][i]];
   }
 }
 
@@ -91,18 +97,25 @@ bool has_vertex(const Tet& tet, Vertex v) {
 
 }  // namespace
 
+// Where faces of CAD come as fans, a corner has a thousand tets and its neighbours have ten. Whichever is asked, the
+// tets come in the same order, that in which they were linked.
+Vertex HybridMesh::with_fewest_tets(std::span<const Vertex> vertices) const {
+  return *std::ranges::min_element(vertices, {}, [&](Vertex v) { return tet_counts_[v]; });
+}
+
 TetIndex HybridMesh::tet_at(const Triangle& triangle, TetIndex except) const {
   TetIndex found = no_index;
-  for_tets_at(triangle[0], [&](TetIndex t) {
-    if (t != except && has_vertex(tets_[t], triangle[1]) && has_vertex(tets_[t], triangle[2])) found = t;
+  for_tets_at(with_fewest_tets(triangle), [&](TetIndex t) {
+    const Tet& tet = tets_[t];
+    if (t != except && std::ranges::all_of(triangle, [&](Vertex v) { return has_vertex(tet, v); })) found = t;
   });
   return found;
 }
 
 void HybridMesh::tets_around_edge(Vertex a, Vertex b, std::vector<TetIndex>& out) const {
   out.clear();
-  for_tets_at(a, [&](TetIndex t) {
-    if (has_vertex(tets_[t], b)) out.push_back(t);
+  for_tets_at(with_fewest_tets(std::array{a, b}), [&](TetIndex t) {
+    if (has_vertex(tets_[t], a) && has_vertex(tets_[t], b)) out.push_back(t);
   });
 }
 

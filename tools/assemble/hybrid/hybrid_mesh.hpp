@@ -77,12 +77,14 @@ class HybridMesh {
  private:
   void link(TetIndex t);
   void unlink(TetIndex t);
+  Vertex with_fewest_tets(std::span<const Vertex> vertices) const;
 
   IndexedVector<TetIndex, Tet> tets_;
   IndexedVector<TetIndex, std::int32_t> regions_;
   IndexedVector<TetIndex, std::uint8_t> alive_;
   // The tets at a vertex are a linked list: slot 4 t + i stands for corner i of tet t.
   std::vector<std::int64_t> first_, next_;
+  std::vector<std::int32_t> tet_counts_;  // by vertex
 
   IndexedVector<CellIndex, HybridCell> cells_;
   CellQuads quads_;
