@@ -32,7 +32,7 @@ setup_file() {
 
 @test "on a terminal, one line shows the stage at work, and what it has" {
   # Iterations in place of seconds: on a busy machine the stages before it may take longer than those.
-  TERM=xterm script -qec "hexpipe '$DATA/bracket.stl' --size 6 -o out.vtu --lns '--worth 0 --iterations 150'" /dev/null </dev/null |
+  TERM=xterm script -qec "hexpipe '$DATA/bracket.stl' --size 6 -o out.vtu --lns '--worth 0 --iterations 800'" /dev/null </dev/null |
     tr '\r' '\n' | sed 's/\x1b\[K//g' >shown
   grep -Eq '^hexpipe: [0-9]+ s, 1/6 tetmesh' shown
   grep -Eq '^hexpipe: [0-9]+ s, 5/6 lns: .*[0-9]+ hexes, [0-9.]+ % of the volume' shown
