@@ -24,6 +24,8 @@ from surface import BIN, ROOT, write_stl
 
 TOOLS = ("tetmesh", "findhex", "buildgraph", "initsol", "lns", "assemble")
 GOAL = 40.0
+# Of cubes as long as the size, this many fill the volume for each hex that comes: rows stretch, and other cells have a twentieth.
+CUBES_PER_HEX = 1.2
 NOISE = 2e-5  # of the diagonal: an eighth of an edge of the largest scan
 
 
@@ -91,7 +93,7 @@ def main():
     args = parser.parse_args()
     tools = [tool for tool in TOOLS if tool != "lns" or args.lns]
     points, triangles = read_obj(args.model)
-    size = (volume_of(points, triangles) / args.hexes / 0.9) ** (1 / 3)
+    size = (volume_of(points, triangles) / args.hexes / CUBES_PER_HEX) ** (1 / 3)
     diagonal = np.linalg.norm(points.max(axis=0) - points.min(axis=0))
     random = np.random.default_rng(1)
     rows = []
