@@ -47,7 +47,7 @@ struct PeriodicLink {
 };
 
 // How a node sees the numbers of a neighbour. Solvers look at all links in each of their steps, and their time is that
-// of reading them from memory, so it has nothing else.
+// of reading them from memory, so it has nothing else, and for K = 3 it is one line of the cache.
 template <std::size_t K>
 class LinkView {
  public:
