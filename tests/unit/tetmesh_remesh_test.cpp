@@ -21,6 +21,7 @@ namespace {
 
 using testing::box;
 using testing::cube;
+using testing::Facet;
 using testing::Facets;
 using testing::inverted;
 using testing::joined;
@@ -188,6 +189,72 @@ TEST(Remesh, KeepsThinWallsApart) {
   if (result.failure.empty()) {
     EXPECT_NO_THROW(check_surface(result.surface));
   }
+}
+
+// A square bar whose long edges are rounded in steps, closed by fans.
+Surface rounded_bar(double radius, int steps, double length) {
+  std::vector<Vec3> outline;
+  for (int side = 0; side < 4; ++side)
+    for (int i = 0; i <= steps; ++i) {
+      const double angle = std::numbers::pi / 2 * (side + static_cast<double>(i) / steps);
+      const Vec3 corner{side == 0 || side == 3 ? 1. : -1., side < 2 ? 1. : -1., 0};
+      outline.push_back(corner + radius * Vec3{std::cos(angle), std::sin(angle), 0});
+    }
+  Facets facets;
+  const Vec3 centre{0, 0, 0}, up{0, 0, length};
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec3 a = outline[i], b = outline[(i + 1) % outline.size()];
+    facets.insert(facets.end(), {Facet{a, b, b + up}, Facet{a, b + up, a + up}, Facet{centre, b, a},
+                                 Facet{centre + up, a + up, b + up}});
+  }
+  return surface_of(facets);
+}
+
+TEST(RemoveVertices, StaysNearThePointsThatItLeftBehindBefore) {
+  constexpr double deviation = 0.02, limit = 1.15 * deviation;
+  const Surface surface = rounded_bar(0.1, 12, 5);
+  const DistanceIndex input(surface.points, surface.triangles);
+  FeatureMesh mesh(surface, 40);
+  refine_surface(mesh, 0.8, 1e-6);
+  const auto surface_after = [&](const CloseWatch& watch) {
+    FeatureMesh copy = mesh;
+    remove_vertices(copy, input, deviation, watch);
+    return copy.to_surface(surface);
+  };
+  const Surface first = surface_after({});
+  const std::vector<Vec3> left_behind =
+      one_sided_distance(surface.points, surface.triangles, DistanceIndex(first.points, first.triangles), 0.1, limit)
+          .beyond;
+  ASSERT_GT(left_behind.size(), 10u);
+  const Surface second = surface_after({left_behind, {}});
+  const DistanceIndex output(second.points, second.triangles);
+  for (const Vec3& p : left_behind) EXPECT_LE(output.distance(p), limit);
+}
+
+TEST(RemoveVertices, LeavesFacesThatAreHeld) {
+  const Surface surface = surface_of(sphere({0, 0, 0}, 5, 30));
+  FeatureMesh mesh(surface, 40);
+  std::vector<std::array<Vec3, 3>> held, left;
+  for (const auto f : mesh.faces())
+    if (mesh.position(mesh.corners(f)[0]).z > 4) {
+      mesh.hold(f);
+      held.push_back(mesh.positions(f));
+    }
+  ASSERT_GT(held.size(), 100u);
+  remove_vertices(mesh, DistanceIndex(surface.points, surface.triangles), 0.5);
+  for (const auto f : mesh.faces()) left.push_back(mesh.positions(f));
+  EXPECT_LT(left.size(), held.size() + 300);
+  for (const std::array<Vec3, 3>& face : held) EXPECT_NE(std::ranges::find(left, face), left.end());
+}
+
+TEST(Remesh, KeepsItsDistanceAtRoundedEdgesWithFewMorePoints) {
+  const RemeshResult result = remesh_surface(rounded_bar(0.1, 12, 3), {.size = 0.3, .deviation = 0.06});
+  ASSERT_EQ(result.failure, "");
+  EXPECT_NO_THROW(check_surface(result.surface));
+  EXPECT_LT(std::max(result.from_input, result.to_input), 0.06 * 0.3 * 1.001);
+  EXPECT_GT(result.attempts, 1);
+  EXPECT_LE(result.attempts, 3);
+  EXPECT_LT(result.extra_points, 80u);
 }
 
 TEST(Remesh, GivesUpBeforeMemoryDoes) {

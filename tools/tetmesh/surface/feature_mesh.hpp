@@ -60,6 +60,10 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // Its length is twice the area.
   Vec3 area_normal(FaceHandle f) const;
   std::array<VertexHandle, 3> corners(FaceHandle f) const;
+  std::array<Vec3, 3> positions(FaceHandle f) const {
+    const auto [a, b, c] = corners(f);
+    return {position(a), position(b), position(c)};
+  }
   // Whether the faces around v lie in one plane.
   bool is_flat_around(VertexHandle v) const;
 
@@ -70,6 +74,13 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   void keep(VertexHandle v) {
     for_each_copy(v, [&](VertexHandle copy) { vertex_role_[copy.idx()] = VertexRole::kept; });
   }
+  // A face that is held is one of the result, with its corners.
+  void hold(FaceHandle f) {
+    is_held_.resize(n_faces());
+    is_held_[f.idx()] = true;
+    for (const VertexHandle v : corners(f)) keep(v);
+  }
+  bool is_held(FaceHandle f) const { return static_cast<std::size_t>(f.idx()) < is_held_.size() && is_held_[f.idx()]; }
   // The triangle of the input surface that a face lies on, or lay on before its corners were moved.
   std::int32_t source(FaceHandle f) const { return source_[f.idx()]; }
 
@@ -130,6 +141,7 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   std::vector<int> next_copy_;        // by vertex, in a ring; a vertex without copies has itself
   std::vector<std::int32_t> place_;   // by vertex
   std::vector<std::int32_t> source_;  // by face
+  std::vector<bool> is_held_;         // by face; it ends where no later face is held
   std::vector<bool> is_interface_;    // by triangle of the input
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
@@ -36,14 +37,22 @@ void refine_surface(FeatureMesh& mesh, const sizing::SizeField& longest, const s
 // elsewhere the vertex stays, and stands for the point.
 void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, const sizing::SizeField& snap);
 
+// What went wrong when vertices were removed before.
+struct CloseWatch {
+  std::vector<Vec3> left_behind;  // points of the original surface from which the faces came too far
+  std::vector<Vec3> strayed;      // points of faces that came too far from the original surface
+};
+
 // The mesh is changed in regions of about this many vertices at the same time. With half as many, more vertices are
 // left for where regions meet.
 inline constexpr std::size_t region_vertices = 8000;
 
 // Feature curves stay where they are, apart from their removed vertices. No face turns over. Every removed vertex stays
 // within `deviation` of the faces that took its place, and these stay within it of the original surface, or within 1.15
-// times as much where that mends a sliver. Vertices that cannot be removed in this way stay. Returns their number. The
-// mesh's deleted elements are left in it.
-std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation);
+// times as much where that mends a sliver. Both are measured at few points; what is watched closely is measured at
+// more. Vertices that cannot be removed in this way stay. Returns their number. The mesh's deleted elements are left in
+// it.
+std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation,
+                            const CloseWatch& watch = {});
 
 }  // namespace hexpipe::tetmesh::surface

@@ -1,6 +1,7 @@
 // The steps: sample features, and the middles of small fillets, as densely as rows of points should begin there; make
 // the triangles that carry the field; put points on them by a front; insert these points; remove all other vertices.
-// The result is judged as a whole. Around a fault the input's own vertices stay in the next attempt.
+// The result is judged as a whole. In the next attempt, points of the input that came too far from it are watched, and
+// around other faults the input's own vertices stay.
 
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
@@ -13,6 +14,7 @@
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
+#include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/sizing/sizing.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/curve_rows.hpp"
@@ -39,13 +41,17 @@ constexpr double removal_share = 0.85;
 // edges are at most this many sizes long.
 constexpr double dense = 8, thinning_share = 0.2, thin_edge = 0.7;
 // Around a fault, the nearest vertex within this many sizes stays, unless a vertex that stays is as near already. If
-// that does not help in `careful_attempts`, all vertices within that reach stay, and in the next attempt those within
+// that does not help in `careful_attempts`, all triangles within that reach stay, and in the next attempt those within
 // twice the reach.
 constexpr double fault_reach = 0.5;
 constexpr int careful_attempts = 4, most_attempts = 6;
 // On the new surface; each takes about 2 KB while the surface is made.
 constexpr double most_points = 2e7;
 constexpr std::size_t most_intersections = 1000;
+
+void append(std::vector<Vec3>& all, const std::vector<Vec3>& some) {
+  all.insert(all.end(), some.begin(), some.end());
+}
 
 bool has_within(const geometry::SizedPointGrid& grid, const Vec3& place, double reach) {
   bool found = false;
@@ -84,10 +90,15 @@ class SurfaceRemesher::Work {
   void place_front(const RowGuide& guide);
   bool rows_go_across() const;
   void remove_vertices_of_input();
-  std::vector<Vec3> find_faults();
+  // Where the surface that was made is not as promised.
+  struct Faults {
+    std::vector<Vec3> places;
+    CloseWatch too_far;
+  };
+  Faults find_faults();
   std::vector<Vec3> find_gaps() const;
-  void keep_nearest(const std::vector<Vec3>& places, const sizing::SizeField& reach);
-  void keep_around(const std::vector<Vec3>& places, const sizing::SizeField& reach);
+  void keep_nearest(std::span<const Vec3> places, const sizing::SizeField& reach);
+  void hold_around(std::span<const Vec3> places, const sizing::SizeField& reach);
   std::vector<Vertex> kept_vertices() const;
   std::size_t count_places(std::span<const Vertex> vertices) const;
   Vec3 centre_of(std::size_t triangle) const;
@@ -112,6 +123,7 @@ class SurfaceRemesher::Work {
   FeatureMesh prepared_;           // with all points inserted, and with the vertices of the input
   std::optional<Carrier> carrier_;
   std::optional<DistanceIndex> input_;
+  CloseWatch watch_;  // by what earlier attempts showed
 };
 
 // Scans have a hundred triangles and more for each that is needed. The field, the front and the removal of vertices
@@ -133,12 +145,17 @@ bool SurfaceRemesher::Work::make() {
 }
 
 bool SurfaceRemesher::Work::judge() {
-  const std::vector<Vec3> faults = find_faults();
-  if (result.attempts < careful_attempts)
-    keep_nearest(faults, fault_reach / result.attempts * size_);
-  else
-    keep_around(faults, fault_reach * (result.attempts + 1 - careful_attempts) * size_);
-  return faults.empty();
+  const Faults faults = find_faults();
+  const auto& [places, too_far] = faults;
+  append(watch_.left_behind, too_far.left_behind);
+  append(watch_.strayed, too_far.strayed);
+  if (result.attempts < careful_attempts) {
+    keep_nearest(places, fault_reach / result.attempts * size_);
+  } else {
+    const sizing::SizeField reach = fault_reach * (result.attempts + 1 - careful_attempts) * size_;
+    for (const std::vector<Vec3>* some : {&places, &too_far.left_behind, &too_far.strayed}) hold_around(*some, reach);
+  }
+  return result.failure.empty();
 }
 
 bool SurfaceRemesher::Work::prepare() {
@@ -220,7 +237,7 @@ std::size_t SurfaceRemesher::Work::count_places(std::span<const Vertex> vertices
 void SurfaceRemesher::Work::remove_vertices_of_input() {
   const Step step(nullptr, 0.8, 1);
   FeatureMesh mesh = prepared_;
-  remove_vertices(mesh, *input_, removal_share * deviation_);
+  remove_vertices(mesh, *input_, removal_share * deviation_, watch_);
   result.surface = mesh.to_surface(surface_);
   result.on_feature = mesh.points_on_features();
   // A front point that comes to lie on a feature's point is one with it.
@@ -263,20 +280,20 @@ std::vector<Vec3> SurfaceRemesher::Work::find_gaps() const {
   return gaps;
 }
 
-// Places where the new surface is not as promised. By construction, its edges and vertices are manifold within each
-// sheet and its orientation is right.
-std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
+// By construction, the edges and vertices are manifold within each sheet and the orientation is right.
+SurfaceRemesher::Work::Faults SurfaceRemesher::Work::find_faults() {
   const solid::Surface& made = result.surface;
-  std::vector<Vec3> faults;
+  Faults faults;
+  auto& [places, too_far] = faults;
   for (std::size_t i = 0; i < made.triangles.size(); ++i) {
     const auto [a, b, c] = made.triangles[i];
-    if (geometry::are_collinear(made.points[a], made.points[b], made.points[c])) faults.push_back(centre_of(i));
+    if (geometry::are_collinear(made.points[a], made.points[b], made.points[c])) places.push_back(centre_of(i));
   }
   result.failure = "the new surface has triangles without an area";
-  if (!faults.empty()) return faults;
-  faults = find_gaps();
+  if (!places.empty()) return faults;
+  places = find_gaps();
   result.failure = "sheets of the new surface do not meet";
-  if (!faults.empty()) return faults;
+  if (!places.empty()) return faults;
   // Both are measured at once, because the second is seldom measured in vain.
   SurfaceDistance there, back;
   both_at_once(
@@ -288,19 +305,19 @@ std::vector<Vec3> SurfaceRemesher::Work::find_faults() {
       },
       [&] {
         for (const auto& pair : geometry::find_intersections(made.points, made.triangles, most_intersections).pairs)
-          for (const std::int32_t i : pair) faults.push_back(centre_of(static_cast<std::size_t>(i)));
+          for (const std::int32_t i : pair) places.push_back(centre_of(static_cast<std::size_t>(i)));
       });
+  too_far = {std::move(back.beyond), std::move(there.beyond)};
   result.failure = "the new surface intersects itself";
-  if (!faults.empty()) return faults;
+  if (!places.empty()) return faults;
   result.to_input = there.greatest;
   result.from_input = back.greatest;
-  faults = std::move(there.beyond);
-  faults.insert(faults.end(), back.beyond.begin(), back.beyond.end());
-  result.failure = faults.empty() ? "" : "the new surface is too far from the old one";
+  const bool is_near = too_far.left_behind.empty() && too_far.strayed.empty();
+  result.failure = is_near ? "" : "the new surface is too far from the old one";
   return faults;
 }
 
-void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const sizing::SizeField& reach) {
+void SurfaceRemesher::Work::keep_nearest(std::span<const Vec3> places, const sizing::SizeField& reach) {
   if (places.empty()) return;
   geometry::SizedPointGrid removable(places.front()), fresh(places.front());
   std::vector<OpenMesh::VertexHandle> handles;
@@ -328,13 +345,22 @@ void SurfaceRemesher::Work::keep_nearest(const std::vector<Vec3>& places, const 
   }
 }
 
-void SurfaceRemesher::Work::keep_around(const std::vector<Vec3>& places, const sizing::SizeField& reach) {
+void SurfaceRemesher::Work::hold_around(std::span<const Vec3> places, const sizing::SizeField& reach) {
   if (places.empty()) return;
   geometry::SizedPointGrid grid(places.front());
   for (const Vec3& p : places) grid.add(p, reach.greatest());
-  for (const auto v : prepared_.vertices()) {
-    const Vec3 p = prepared_.position(v);
-    if (has_within(grid, p, reach.at(p))) prepared_.keep(v);
+  for (const auto f : prepared_.faces()) {
+    const auto [a, b, c] = prepared_.positions(f);
+    const Vec3 middle = (a + b + c) * (1.0 / 3);
+    const double radius = std::max({norm(a - middle), norm(b - middle), norm(c - middle)});
+    const double here = reach.at(middle);
+    const geometry::TriangleDistance triangle(a, b, c);
+    bool is_near = false;
+    grid.for_each_near(middle, here + radius, 0, [&](std::int32_t i) {
+      is_near = triangle.squared(grid.points()[i]) <= here * here;
+      return !is_near;
+    });
+    if (is_near) prepared_.hold(f);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "common/run/parallel.hpp"
+#include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/mesh_regions.hpp"
@@ -25,7 +26,8 @@ using VertexH = OpenMesh::VertexHandle;
 constexpr double least_cosine = 0.3, least_shape = 1e-3;
 // Edges that bend by less than this share of the deviation are flat.
 constexpr double flat_bend = 0.05;
-// On the other edges, points are watched at most this many deviations apart.
+// On the other edges, points are watched at most this many deviations apart. To watch more takes longer than to find
+// out, on the surface that was made, where some came too far.
 constexpr double watch_spacing = 3;
 constexpr double most_samples = 64;  // along an edge
 // A flip that mends a triangle of less than this shape may leave the surface this many times as far as other changes: a
@@ -34,6 +36,10 @@ constexpr double most_samples = 64;  // along an edge
 constexpr double thin_shape = 0.1, allowance_for_thin = 1.15;
 // Removing some vertices makes others removable. More rounds found nothing.
 constexpr int most_rounds = 20;
+// Faces within this many deviations of a place where faces strayed are measured at points of a grid with this many
+// parts on an edge.
+constexpr double stray_reach = 4;
+constexpr int close_parts = 8;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -79,10 +85,29 @@ Strays samples_of_edges(const FeatureMesh& mesh, const sizing::SizeField& deviat
   return strays;
 }
 
+// Gives each point to the face of the mesh that is nearest to it.
+void watch_points(const FeatureMesh& mesh, std::span<const Vec3> watched, Strays& strays) {
+  if (watched.empty()) return;
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  for (const VertexH v : mesh.vertices()) points.push_back(mesh.position(v));
+  for (const Face f : mesh.faces()) {
+    const auto [a, b, c] = mesh.corners(f);
+    triangles.push_back({a.idx(), b.idx(), c.idx()});
+  }
+  const DistanceIndex faces(points, triangles);
+  std::int32_t nearest = no_index;
+  for (const Vec3& p : watched) {
+    faces.distance(p, nearest);
+    strays[nearest].push_back(p);
+  }
+}
+
 class VertexRemover {
  public:
-  VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation, Strays& strays)
-      : mesh_(mesh), original_(original), deviation_(&deviation), strays_(strays) {}
+  VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation, Strays& strays,
+                const geometry::SizedPointGrid& strayed)
+      : mesh_(mesh), original_(original), deviation_(&deviation), strays_(strays), strayed_(strayed) {}
   // A remover that changes nothing outside a region.
   VertexRemover(const VertexRemover& whole, const MeshRegions& regions, std::size_t region) : VertexRemover(whole) {
     regions_ = &regions;
@@ -130,7 +155,9 @@ class VertexRemover {
   void describe_collapse(HalfEdgeH collapse);
   bool fits() { return strays_fit() && (change_.flat || faces_fit()); }
   bool strays_fit();
+  bool is_near(const Vec3& p);
   bool faces_fit();
+  bool fits_closely(const Corners& face);
   void settle_strays();
   void flip_queued();
   bool allow_flip(Edge e, const EdgeDiamond& diamond);
@@ -141,6 +168,7 @@ class VertexRemover {
   const sizing::SizeField* deviation_;
   bool only_thin_ = false;
   Strays& strays_;
+  const geometry::SizedPointGrid& strayed_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere
   std::size_t region_ = 0;
   std::vector<Choice> choices_;
@@ -276,11 +304,32 @@ bool VertexRemover::strays_fit() {
   return true;
 }
 
+bool VertexRemover::is_near(const Vec3& p) {
+  return deviation_->is_at_least(original_.distance(p, nearest_, deviation_->least()), p);
+}
+
 // Measures from the original surface.
 bool VertexRemover::faces_fit() {
-  return std::ranges::all_of(change_.places, [&](const Vec3& p) {
-    return deviation_->is_at_least(original_.distance(p, nearest_, deviation_->least()), p);
+  return std::ranges::all_of(change_.places, [&](const Vec3& p) { return is_near(p); }) &&
+         std::ranges::all_of(change_.corners, [&](const Corners& face) { return fits_closely(face); });
+}
+
+bool VertexRemover::fits_closely(const Corners& face) {
+  if (strayed_.points().empty()) return true;
+  const Vec3 middle = middle_of(face);
+  double reach = 0;
+  for (const Vec3& corner : face) reach = std::max(reach, norm(corner - middle));
+  reach += stray_reach * deviation_->at(middle);
+  bool is_beside = false;
+  strayed_.for_each_near(middle, reach, 0, [&](std::int32_t) {
+    is_beside = true;
+    return false;
   });
+  if (!is_beside) return true;
+  for (int i = 0; i <= close_parts; ++i)
+    for (int j = 0; i + j <= close_parts; ++j)
+      if (!is_near((1.0 / close_parts) * (i * face[0] + j * face[1] + (close_parts - i - j) * face[2]))) return false;
+  return true;
 }
 
 void VertexRemover::settle_strays() {
@@ -300,12 +349,13 @@ bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
     wanted_.push_back(e);
     return false;
   }
+  const Face left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
+             right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
+  if (mesh_.is_held(left) || mesh_.is_held(right)) return false;
   if (!deviation_->is_at_least(diamond.height(), diamond.end_points[0])) return false;
   const auto [a, b] = diamond.end_points;
   const auto [l, r] = diamond.across_points;
   if (only_thin_ && std::min(shape_of_triangle({a, b, l}), shape_of_triangle({a, b, r})) >= thin_shape) return false;
-  const Face left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
-             right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
   change_.strays = strays_[left.idx()];
   change_.strays.insert(change_.strays.end(), strays_[right.idx()].begin(), strays_[right.idx()].end());
   change_.faces.assign({left, right});
@@ -317,12 +367,16 @@ bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
 
 }  // namespace
 
-std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation) {
+std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation,
+                            const CloseWatch& watch) {
   const auto on_features_first = [&](std::vector<VertexH>& vertices) {
     std::ranges::stable_partition(vertices, [&](VertexH v) { return mesh.is_on_feature(v); });
   };
   Strays strays = samples_of_edges(mesh, deviation);
-  VertexRemover everywhere(mesh, original, deviation, strays);
+  watch_points(mesh, watch.left_behind, strays);
+  geometry::SizedPointGrid strayed(watch.strayed.empty() ? Vec3{} : watch.strayed.front());
+  for (const Vec3& p : watch.strayed) strayed.add(p, deviation.greatest());
+  VertexRemover everywhere(mesh, original, deviation, strays, strayed);
   std::vector<VertexH> at_joints;
   for (const VertexH v : mesh.vertices())
     if (!mesh.is_kept(v) && mesh.has_copies(v) && mesh.place(v) == v.idx()) at_joints.push_back(v);
