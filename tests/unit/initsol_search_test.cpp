@@ -146,6 +146,19 @@ TEST(Initsol, AnnealsBetterTheSlowerItCools) {
   }
 }
 
+// Given temperatures leave one long cooling alone.
+TEST(Initsol, FindsMoreInDenseGraphsByShortCoolings) {
+  Random random(10);
+  const ConflictGraph graph = hexpipe::testing::random_graph(1000, 0.1, 200, random);
+  const auto weight_with = [&](InitsolOptions options) {
+    std::int64_t sum = 0;
+    for (options.seed = 1; options.seed <= 3; ++options.seed)
+      sum += find_initial_solution(graph, {}, options, no_deadline).weight;
+    return sum;
+  };
+  EXPECT_GT(weight_with({.iterations = 3000}), weight_with({.hot = 0.95, .cold = 0.3, .iterations = 3000}));
+}
+
 TEST(Initsol, DoesNotDependOnThreads) {
   Random random(6);
   const ConflictGraph graph = hexpipe::testing::random_clique_graph(400, 120, 1000, random);

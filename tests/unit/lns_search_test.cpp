@@ -262,7 +262,7 @@ TEST(FragmentSolver, NeverLosesWithAnyOperator) {
       solver.begin(op);
       grower.grow(seed, 60, 120, solver.fragment());
       solver.extract(grower);
-      solver.solve(op == Operator::exact ? 1000 : 20, Random(i), no_deadline);
+      solver.solve(op == Operator::exact ? 1000 : 20, Random(i), no_deadline, {}, i % 2 == 0);
       std::int64_t before = 0, after = 0;
       IndependentSet chosen;
       const auto& vertices = solver.fragment().vertices;
@@ -277,6 +277,28 @@ TEST(FragmentSolver, NeverLosesWithAnyOperator) {
       EXPECT_GT(solver.work(), 0);
     }
   }
+}
+
+TEST(FragmentSolver, RecombinesShortCoolings) {
+  Random random(12);
+  const ConflictGraph graph = hexpipe::testing::random_graph(600, 0.1, 200, random);
+  const auto weight_with = [&](bool short_coolings, int index) {
+    SolutionState state(graph);
+    state.make_maximal();
+    FragmentGrower grower(state, Random(9));
+    FragmentSolver solver;
+    solver.begin(Operator::recombine);
+    grower.grow(state.to_set().front(), 600, 600, solver.fragment());
+    solver.extract(grower);
+    solver.solve(2, Random(index), no_deadline, Cooling::for_chosen(50), short_coolings);
+    std::int64_t weight = 0;
+    for (std::size_t i = 0; i < solver.fragment().vertices.size(); ++i)
+      if (solver.chooses(i)) weight += graph.weights[solver.fragment().vertices[i]];
+    return weight;
+  };
+  std::int64_t with = 0, without = 0;  // half of those with short coolings anneal by kicks
+  for (int i = 0; i < 10; ++i) with += weight_with(true, i), without += weight_with(false, i);
+  EXPECT_GT(with, without);
 }
 
 TEST(Lns, FindsTheOptimumOfSmallGraphs) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/mwis/local_search/annealing.hpp"
 #include "common/mwis/local_search/recombination.hpp"
 #include "common/mwis/local_search/remainder.hpp"
+#include "common/mwis/local_search/short_coolings.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/progress.hpp"
 
@@ -66,6 +68,8 @@ class TabuStart : public Search {
   TabuSearch search_;
 };
 
+// One long cooling by kicks. Where short coolings suit the graph, they take about as long beside it; given temperatures
+// leave them out, because they find their own.
 class AnnealedStart : public Search {
  public:
   AnnealedStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const InitsolOptions& options,
@@ -74,17 +78,27 @@ class AnnealedStart : public Search {
     cooling_ = mwis::local_search::Cooling::for_chosen(search_.chosen_count());
     cooling_.hot = options.hot.value_or(cooling_.hot);
     cooling_.cold = options.cold.value_or(cooling_.cold);
+    const bool as_usual = !options.hot && !options.cold;
+    if (as_usual && mwis::local_search::ShortCoolings::suit(graph, search_.chosen_count()))
+      short_coolings_.emplace(graph, start, Random(random.next()));
   }
   void run(std::int64_t moves, double progress, const Deadline& deadline) override {
     search_.run(moves, unit_ * cooling_.at(progress), deadline);
+    if (short_coolings_) short_coolings_->run(mwis::local_search::ShortCoolings::trials_a_kick * moves, deadline);
   }
   std::int64_t moves() const override { return search_.kicks(); }
-  std::int64_t best_weight() const override { return search_.best_weight(); }
-  graph::IndependentSet best() const override { return search_.best(); }
+  std::int64_t best_weight() const override {
+    return short_coolings_ ? std::max(search_.best_weight(), short_coolings_->best_weight()) : search_.best_weight();
+  }
+  graph::IndependentSet best() const override {
+    const bool is_ahead = short_coolings_ && short_coolings_->best_weight() > search_.best_weight();
+    return is_ahead ? short_coolings_->best() : search_.best();
+  }
 
  private:
   mwis::local_search::Cooling cooling_;
   mwis::local_search::Annealing search_;
+  std::optional<mwis::local_search::ShortCoolings> short_coolings_;
   double unit_;
 };
 

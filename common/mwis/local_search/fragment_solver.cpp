@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/mwis/local_search/recombination.hpp"
+#include "common/mwis/local_search/short_coolings.hpp"
 
 namespace hexpipe::mwis::local_search {
 namespace {
@@ -27,11 +28,14 @@ void FragmentSolver::extract(FragmentGrower& grower) {
   grower.extract(fragment_, sparse_, start_);
 }
 
-void FragmentSolver::solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual) {
+void FragmentSolver::solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual,
+                           bool short_coolings) {
   if (operator_ == Operator::exact)
     solve_exactly(budget, deadline);
   else if (operator_ == Operator::anneal)
     anneal(budget, random, deadline, usual);
+  else if (short_coolings && random.below(2) == 0)  // kicks alone lose on C2000.9, short coolings on frb59-26-5
+    recombine_short_coolings(budget, random, deadline);
   else
     recombine(budget, random, deadline, usual);
 }
@@ -59,6 +63,13 @@ void FragmentSolver::recombine(std::int64_t kicks_a_vertex, Random random, const
                                const Cooling& usual) {
   Annealing search(sparse_, {}, random);
   choose(hexpipe::mwis::local_search::recombine(sparse_, start_, cool(search, usual, kicks_a_vertex, deadline)));
+}
+
+void FragmentSolver::recombine_short_coolings(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline) {
+  ShortCoolings search(sparse_, {}, random);
+  search.run(ShortCoolings::trials_a_kick * kicks_a_vertex * sparse_.vertex_count(), deadline);
+  work_ = work_a_touched_neighbour * search.touched();
+  choose(hexpipe::mwis::local_search::recombine(sparse_, start_, search.best()));
 }
 
 graph::IndependentSet FragmentSolver::cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,

@@ -23,8 +23,10 @@ class FragmentSolver {
   // Copies the graph of the fragment; solve needs nothing else afterwards.
   void extract(FragmentGrower& grower);
   // `budget` is the greatest number of branch-and-bound nodes for the exact operator, and the number of kicks per
-  // vertex for the others. `usual`: temperatures that suit the whole graph.
-  void solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual = {});
+  // vertex for the others. `usual`: temperatures that suit the whole graph. `short_coolings`: whether these suit it,
+  // too.
+  void solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual = {},
+             bool short_coolings = false);
 
   // After solve: by place in fragment().vertices, a set that is not lighter.
   bool chooses(std::size_t i) const { return bits::test(chosen_.data(), i); }
@@ -39,6 +41,8 @@ class FragmentSolver {
   void solve_exactly(std::int64_t nodes, const Deadline& deadline);
   void anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual);
   void recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual);
+  // In about the time of so many kicks.
+  void recombine_short_coolings(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline);
   graph::IndependentSet cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
                              const Deadline& deadline);
   void choose(const graph::IndependentSet& set);

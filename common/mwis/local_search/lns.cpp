@@ -13,6 +13,7 @@
 #include "common/mwis/local_search/fragment_solver.hpp"
 #include "common/mwis/local_search/remainder.hpp"
 #include "common/mwis/local_search/schedule.hpp"
+#include "common/mwis/local_search/short_coolings.hpp"
 #include "common/mwis/local_search/stop_rule.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/progress.hpp"
@@ -69,7 +70,9 @@ class Lns {
                    work_of_cooling(graph, vertices_of_whole(graph))) {
     state_.make_maximal();
     stop_rule_.record(0, state_.weight());
-    usual_ = Cooling::for_chosen(std::ssize(state_.to_set()));
+    const std::int64_t chosen = std::ssize(state_.to_set());
+    usual_ = Cooling::for_chosen(chosen);
+    short_coolings_ = ShortCoolings::suit(graph, chosen);
     if (memory_ != nullptr) recall();
     if (memory_ == nullptr) begin_step();
     for (std::int32_t v = 0; v < graph.vertex_count(); ++v) {
@@ -223,7 +226,7 @@ class Lns {
       const std::int64_t index = begun_ - 1;
       const std::int64_t budget = budget_for(solver);
       lock.unlock();
-      solver.solve(budget, random_for(index), deadline_, usual_);
+      solver.solve(budget, random_for(index), deadline_, usual_, short_coolings_);
       lock.lock();
       grower_.let_go(solver.fragment());
       apply(solver);
@@ -267,7 +270,7 @@ class Lns {
   }
 
   void solve(FragmentSolver& solver, std::int64_t index) const {
-    solver.solve(budget_for(solver), random_for(index), deadline_, usual_);
+    solver.solve(budget_for(solver), random_for(index), deadline_, usual_, short_coolings_);
   }
 
   void apply(const FragmentSolver& solver) {
@@ -388,9 +391,10 @@ class Lns {
   std::array<Schedule, all_operators.size()> schedules_;  // by operator
   OperatorSelection selection_;
   StopRule stop_rule_;
-  double work_ = 0;  // of all fragments
-  double seen_ = 0;  // vertices in the inner halves of exact fragments, counted as often as they were there
-  Cooling usual_;    // temperatures for this graph
+  double work_ = 0;              // of all fragments
+  double seen_ = 0;              // vertices in the inner halves of exact fragments, counted as often as they were there
+  Cooling usual_;                // temperatures for this graph
+  bool short_coolings_ = false;  // whether they suit this graph
   std::vector<std::int32_t> postponed_, removed_, added_, left_out_;
   std::int64_t begun_ = 0, iterations_ = 0;  // fragments grown, and fragments put back
   std::int64_t improvements_ = 0;

@@ -1,0 +1,97 @@
+#include "common/mwis/local_search/short_coolings.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace hexpipe::mwis::local_search {
+namespace {
+
+// Large graphs of the pipeline have sparser conflicts and more chosen vertices. Every one of their regions has to be
+// right at once, which kicks do better: on random-33k a walk over pushes ends 3 % lower (docs/log/mwis.md). Smaller
+// ones are solved exactly.
+constexpr std::int64_t most_chosen = 250, least_vertices = 100;
+constexpr std::int64_t least_edges_share = 50;  // a vertex is in conflict with one in so many of the others at least
+
+// On C2000.9, where the best are found between 0.2 and 0.25 mean weights of a chosen vertex, on frb59-26-5 (0.13 to
+// 0.15) and on 1dc.2048 (0.15 to 0.3) the first range covers all; later ones are as narrow as still melts what the one
+// before froze. Of 1.2, 1.35 and 1.5, 1.2 stays in one basin on 1dc.2048, and 1.5 takes half of the time for heat.
+constexpr double first_hot = 0.4, first_cold = 0.08, spread = 1.35;
+constexpr double share_of_last = 0.2;  // in the usual temperature
+// Of the shortest cooling. 2000 and 4000 find more on frb59-26-5 in 5 s, but less on all graphs in a second. So they
+// grow: by as much again after this many coolings.
+constexpr std::int64_t trials_a_vertex = 1000;
+constexpr std::int64_t coolings_to_grow = 32;
+constexpr std::int64_t steps_a_cooling = 50;
+
+// The sequence 1, 1, 2, 1, 1, 2, 4, ...: each length gets the same time in all (Luby, Sinclair, Zuckerman 1993),
+// because nobody knows which one suits the graph.
+std::int64_t luby(std::int64_t i) {
+  for (auto k = static_cast<std::uint64_t>(i);;) {
+    const std::uint64_t next = std::bit_ceil(k + 1);
+    if (k + 1 == next) return static_cast<std::int64_t>(next / 2);
+    k -= next / 2 - 1;
+  }
+}
+
+}  // namespace
+
+bool ShortCoolings::suit(const graph::ConflictGraph& graph, std::int64_t chosen) {
+  const std::int64_t vertices = graph.vertex_count();
+  return vertices >= least_vertices && chosen <= most_chosen &&
+         least_edges_share * std::ssize(graph.neighbours) >= vertices * vertices;
+}
+
+ShortCoolings::ShortCoolings(const graph::ConflictGraph& graph, const graph::IndependentSet& start, Random random)
+    : walk_(graph, start, random), trials_a_unit_(trials_a_vertex * std::max(1, graph.vertex_count())) {
+  const std::size_t chosen = walk_.best().size();
+  const double mean = chosen > 0 ? static_cast<double>(walk_.best_weight()) / static_cast<double>(chosen) : 1;
+  hot_ = first_hot * mean;
+  cold_ = first_cold * mean;
+  usual_temperature_ = std::sqrt(hot_ * cold_);
+}
+
+void ShortCoolings::run(std::int64_t trials, const Deadline& deadline) {
+  while (trials > 0 && !deadline.passed()) {
+    if (done_ == trials_) begin_cooling();
+    const std::int64_t step = std::max<std::int64_t>(1, trials_ / steps_a_cooling);
+    const std::int64_t now = std::min({trials, step - done_ % step, trials_ - done_});
+    const double at = temperature();
+    const std::int64_t heaviest = walk_.run(now, at, deadline);
+    if (heaviest > heaviest_) {
+      heaviest_ = heaviest;
+      temperature_of_heaviest_ = at;
+    }
+    done_ += now;
+    trials -= now;
+    if (done_ == trials_) end_cooling();
+  }
+}
+
+void ShortCoolings::begin_cooling() {
+  ++coolings_;
+  trials_ = luby(coolings_) * (trials_a_unit_ + trials_a_unit_ * coolings_ / coolings_to_grow);
+  done_ = 0;
+  heaviest_ = 0;
+  if (coolings_ == 1) return;
+  hot_ = usual_temperature_ * spread;
+  cold_ = usual_temperature_ / spread;
+}
+
+void ShortCoolings::end_cooling() {
+  const double share = coolings_ == 1 ? 1 : share_of_last;
+  if (heaviest_ > 0) usual_temperature_ *= std::pow(temperature_of_heaviest_ / usual_temperature_, share);
+}
+
+double ShortCoolings::temperature() const {
+  const std::int64_t step = std::max<std::int64_t>(1, trials_ / steps_a_cooling);
+  const double progress = static_cast<double>(done_ / step) / static_cast<double>(steps_a_cooling);
+  return hot_ * std::pow(cold_ / hot_, std::min(1.0, progress));
+}
+
+double ShortCoolings::touched() const {
+  constexpr double touched_a_trial = 1.5;
+  return static_cast<double>(walk_.touched()) + touched_a_trial * static_cast<double>(walk_.trials());
+}
+
+}  // namespace hexpipe::mwis::local_search

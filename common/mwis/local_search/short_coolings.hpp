@@ -1,0 +1,51 @@
+#pragma once
+// Simulated annealing of graphs of which a solution has few vertices: many short coolings of a walk over pushes, in
+// place of one long one. Which basin a cooling ends in is a matter of luck there, and most of them end after a moment.
+
+#include <cstdint>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mwis/local_search/push_walk.hpp"
+#include "common/run/deadline.hpp"
+#include "common/run/random.hpp"
+
+namespace hexpipe::mwis::local_search {
+
+class ShortCoolings {
+ public:
+  // Whether they suit a graph, of which a solution has about this many vertices.
+  static bool suit(const graph::ConflictGraph& graph, std::int64_t chosen);
+  // Draws that take about as long as a kick of Annealing takes on such graphs.
+  static constexpr std::int64_t trials_a_kick = 2000;
+
+  // `start` must be independent.
+  ShortCoolings(const graph::ConflictGraph& graph, const graph::IndependentSet& start, Random random);
+
+  // Draws so many more vertices; fewer if the deadline passes. It goes on where the last call ended.
+  void run(std::int64_t trials, const Deadline& deadline);
+
+  std::int64_t best_weight() const { return walk_.best_weight(); }
+  graph::IndependentSet best() const { return walk_.best(); }
+  // The work done, in neighbours touched.
+  double touched() const;
+  // The cooling it is at, from 1.
+  std::int64_t coolings() const { return coolings_; }
+  // Where most coolings find their best, in units of weight.
+  double usual_temperature() const { return usual_temperature_; }
+
+ private:
+  void begin_cooling();
+  void end_cooling();
+  double temperature() const;
+
+  PushWalk walk_;
+  std::int64_t trials_a_unit_;
+  double usual_temperature_;
+  std::int64_t coolings_ = 0;
+  std::int64_t trials_ = 0, done_ = 0;  // of this cooling
+  double hot_ = 0, cold_ = 0;
+  std::int64_t heaviest_ = 0;  // of this cooling
+  double temperature_of_heaviest_ = 0;
+};
+
+}  // namespace hexpipe::mwis::local_search
