@@ -38,15 +38,20 @@ class ApartTest {
     return false;
   }
 
-  // Whether two triangles with a common corner 0 certainly have no other point in common: the plane halfway between
-  // their angles at that corner separates them.
+  // Whether two triangles with a common corner 0 certainly have no other point in common: a plane through that corner
+  // separates them. Most triangles of about the same size are separated by the plane halfway between their opposite
+  // sides, which needs no roots; the others by the plane halfway between their angles.
   bool are_apart_beyond_corner(const Triangle& a, const Triangle& b) const {
     const Vec3& corner = points_[a[0]];
     const Vec3 a1 = points_[a[1]] - corner, a2 = points_[a[2]] - corner;
     const Vec3 b1 = points_[b[1]] - corner, b2 = points_[b[2]] - corner;
-    const Vec3 direction = unit(unit(b1) + unit(b2)) - unit(unit(a1) + unit(a2));
-    return std::max(dot(a1, direction), dot(a2, direction)) < -room() &&
-           std::min(dot(b1, direction), dot(b2, direction)) > room();
+    const auto least_beyond = [&](const Vec3& direction) {
+      return std::min({-dot(a1, direction), -dot(a2, direction), dot(b1, direction), dot(b2, direction)});
+    };
+    const Vec3 between = (b1 + b2) - (a1 + a2);
+    const double beyond = least_beyond(between);
+    if (beyond > 0 && beyond * beyond > room() * room() * norm_squared(between)) return true;
+    return least_beyond(unit(unit(b1) + unit(b2)) - unit(unit(a1) + unit(a2))) > room();
   }
 
  private:

@@ -79,6 +79,23 @@ void BoxTree::join_children(std::int32_t number, std::int32_t second) {
   nodes_[number] = node;
 }
 
+std::vector<BoxTree::Meeting> BoxTree::meetings(std::size_t most) const {
+  if (things_.empty()) return {};
+  // All meetings of one round have branches of one depth, up to a thing more or less.
+  std::vector<Meeting> round{{0, 0}}, parts, done;
+  for (std::size_t things = things_.size(); things > most && !round.empty(); things = (things + 1) / 2) {
+    parts.clear();
+    for (const Meeting& meeting : round)
+      if (is_between_leaves(meeting))
+        done.push_back(meeting);
+      else
+        for_each_part(meeting, [&](const Meeting& part) { parts.push_back(part); });
+    std::swap(round, parts);
+  }
+  done.insert(done.end(), round.begin(), round.end());
+  return done;
+}
+
 BoxTree::BoxTree(std::span<const Box> boxes, std::span<const double> values, std::span<const std::int32_t> owners)
     : BoxTree(boxes, values) {
   for (std::int32_t& thing : things_) thing = owners[thing];

@@ -1,6 +1,6 @@
 #pragma once
-// Things in a tree of boxes. It finds the thing with the least value, where values grow with the distance, and the
-// things near a box.
+// Things in a tree of boxes. It finds the thing with the least value, where values grow with the distance, the things
+// near a box, and the pairs of things near each other.
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/mesh/tet_mesh.hpp"
@@ -97,6 +98,29 @@ class BoxTree {
     }
   }
 
+  // Things of two branches of the tree, or of one branch with each other.
+  struct Meeting {
+    std::int32_t one, other;  // nodes; the same one for a branch with itself
+  };
+  // Meetings that together have each pair of things near each other once, so that threads can share them out; there are
+  // a few for each branch of up to `most` things.
+  std::vector<Meeting> meetings(std::size_t most) const;
+  // Calls visit(one, other) for the pairs of a meeting whose leaves have boxes that meet: pairs of things whose boxes
+  // meet, and others beside them. Whoever asks for the neighbours of each thing goes down the tree once for each.
+  template <class Visit>
+  void for_each_near_pair(const Meeting& meeting, Visit&& visit) const {
+    std::array<Meeting, 2 * most_pending> stack;
+    std::size_t depth = 0;
+    stack[depth++] = meeting;
+    while (depth > 0) {
+      const Meeting next = stack[--depth];
+      if (is_between_leaves(next))
+        visit_leaves(next, visit);
+      else
+        for_each_part(next, [&](const Meeting& part) { stack[depth++] = part; });
+    }
+  }
+
  private:
   struct Node {
     Box box;
@@ -125,6 +149,39 @@ class BoxTree {
   std::int32_t build_beside(std::span<const Box> boxes, std::span<const double> values, std::span<Centre> centres,
                             std::int32_t first);
   void join_children(std::int32_t number, std::int32_t second);
+
+  bool is_between_leaves(const Meeting& meeting) const {
+    return nodes_[meeting.one].count > 0 && nodes_[meeting.other].count > 0;
+  }
+  template <class Visit>
+  void visit_leaves(const Meeting& meeting, Visit&& visit) const {
+    const Node &one = nodes_[meeting.one], &other = nodes_[meeting.other];
+    for (std::int32_t i = one.first; i < one.first + one.count; ++i)
+      for (std::int32_t j = meeting.one == meeting.other ? i + 1 : other.first; j < other.first + other.count; ++j)
+        visit(things_[i], things_[j]);
+  }
+  // Splits the branches that are no leaves, and passes over parts whose boxes do not meet.
+  template <class Take>
+  void for_each_part(const Meeting& meeting, Take&& take) const {
+    const auto [one, other] = meeting;
+    const auto take_if_they_meet = [&](std::int32_t a, std::int32_t b) {
+      if (nodes_[a].box.meets(nodes_[b].box)) take(Meeting{a, b});
+    };
+    const auto halves = [&](std::int32_t number) { return std::array{number + 1, nodes_[number].first}; };
+    if (one == other) {
+      const auto [first, second] = halves(one);
+      take(Meeting{first, first});
+      take(Meeting{second, second});
+      take_if_they_meet(first, second);
+    } else if (nodes_[one].count > 0) {
+      for (const std::int32_t b : halves(other)) take_if_they_meet(one, b);
+    } else if (nodes_[other].count > 0) {
+      for (const std::int32_t a : halves(one)) take_if_they_meet(a, other);
+    } else {
+      for (const std::int32_t a : halves(one))
+        for (const std::int32_t b : halves(other)) take_if_they_meet(a, b);
+    }
+  }
 
   template <class ValueOf, class Bound>
   double search(double best, ValueOf&& value_of, Bound&& bound) const {

@@ -46,6 +46,26 @@ TEST(DistanceIndex, AgreesWithLookingAtEveryTriangle) {
   }
 }
 
+// A few triangles are measured first. The one that is furthest away is not among them, and is found all the same.
+TEST(OneSidedDistance, IsThatOfTheFurthestSample) {
+  Surface rough = surface_of(sphere({0, 0, 0}, 1, 20));
+  const Surface smooth = rough;
+  const DistanceIndex of_smooth(smooth.points, smooth.triangles);
+  Random random(5);
+  for (Vec3& p : rough.points) p = random.uniform(1, 1.02) * p;
+  for (const Vertex furthest : {Vertex{0}, Vertex{333}, static_cast<Vertex>(rough.points.size() - 1)}) {
+    const Vec3 before = rough.points[furthest];
+    rough.points[furthest] = 1.05 * before;
+    const SurfaceDistance distance = one_sided_distance(rough.points, rough.triangles, of_smooth, 10, 0.04);
+    EXPECT_NEAR(distance.greatest, naive_distance(smooth, rough.points[furthest]), 1e-12);
+    ASSERT_EQ(distance.beyond.size(), 1u);
+    EXPECT_EQ(distance.beyond[0], rough.points[furthest]);
+    // The limit makes no difference to the greatest distance.
+    EXPECT_EQ(one_sided_distance(rough.points, rough.triangles, of_smooth, 10, 1).greatest, distance.greatest);
+    rough.points[furthest] = before;
+  }
+}
+
 TEST(Remesh, BoxesBecomeGrids) {
   const Surface surface = surface_of(box({0, 0, 0}, {3, 2, 1}));
   const RemeshResult result = remesh_surface(surface, {.size = 0.25});

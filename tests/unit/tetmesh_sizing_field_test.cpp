@@ -157,6 +157,32 @@ TEST(BoxTree, FindsTheFirstHitOfARay) {
   }
 }
 
+TEST(BoxTree, MeetingsHaveEachPairOfThingsWhoseBoxesMeetOnce) {
+  Random random(7);
+  for (const int count : {0, 1, 2, 3, 5, 77, 500}) {
+    std::vector<Box> boxes;
+    for (int i = 0; i < count; ++i) {
+      const Vec3 low = random_point(random, 2);
+      boxes.push_back({low, low + Vec3{random.uniform(0, 1), random.uniform(0, 1), i % 5 == 0 ? 4.0 : 0.2}});
+    }
+    const BoxTree tree(boxes, std::vector<double>(boxes.size(), 0.0));
+    std::vector<std::pair<std::int32_t, std::int32_t>> expected;
+    for (std::int32_t i = 0; i < count; ++i)
+      for (std::int32_t j = i + 1; j < count; ++j)
+        if (boxes[static_cast<std::size_t>(i)].meets(boxes[static_cast<std::size_t>(j)])) expected.emplace_back(i, j);
+    for (const std::size_t most : {1u, 16u, 1000u}) {
+      std::vector<std::pair<std::int32_t, std::int32_t>> found;
+      for (const BoxTree::Meeting& meeting : tree.meetings(most))
+        tree.for_each_near_pair(meeting, [&](std::int32_t i, std::int32_t j) {
+          if (boxes[static_cast<std::size_t>(i)].meets(boxes[static_cast<std::size_t>(j)]))
+            found.emplace_back(std::min(i, j), std::max(i, j));
+        });
+      std::ranges::sort(found);
+      EXPECT_EQ(found, expected) << count << " things, " << most;
+    }
+  }
+}
+
 TEST(SizedPointGrid, FindsAllNear) {
   Random random(11);
   SizedPointGrid grid(Vec3{-5, -5, -5});

@@ -137,6 +137,11 @@ TEST(ApartTest, TellsNeedlesThatDoNotMeet) {
   const ApartTest beside(fan, {});
   EXPECT_TRUE(beside.are_apart_beyond_corner({0, 1, 2}, {0, 3, 4}));
   EXPECT_FALSE(beside.are_apart_beyond_corner({0, 1, 3}, {0, 2, 4}));
+  // One triangle is a hundred times larger: only the plane between their angles separates the two.
+  const std::vector<Vec3> unlike{{0, 0, 0}, {100, -100, 0}, {100, -2, 0}, {1, 0, 0}, {1, 1, 0}};
+  const ApartTest of_unlike(unlike, {});
+  EXPECT_TRUE(of_unlike.are_apart_beyond_corner({0, 1, 2}, {0, 3, 4}));
+  EXPECT_TRUE(of_unlike.are_apart_beyond_corner({0, 3, 4}, {0, 1, 2}));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-constexpr std::int64_t triangles_in_block = 512;
+constexpr std::size_t triangles_in_branch = 512;
 
 using TriangleBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
 
@@ -111,17 +111,17 @@ std::optional<std::vector<std::array<std::int32_t, 2>>> all_intersections(std::s
   boxes.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) boxes.push_back(Box::around(std::array{points[a], points[b], points[c]}));
   const BoxTree tree(boxes, std::vector<double>(boxes.size()));
+  const std::vector<BoxTree::Meeting> meetings = tree.meetings(triangles_in_branch);
   Pairs all;
   try {
     parallel_in_order(
-        static_cast<std::int64_t>(triangles.size()), triangles_in_block,
-        [&](std::int64_t begin, std::int64_t end) {
+        static_cast<std::int64_t>(meetings.size()), 1,
+        [&](std::int64_t begin, std::int64_t) {
           Pairs pairs;
-          for (auto first = static_cast<std::int32_t>(begin); first < end && pairs.size() <= limit; ++first)
-            tree.for_each_near(boxes[first], [&](std::int32_t second) {
-              if (first < second && boxes[first].meets(boxes[second]) && intersect(first, second))
-                pairs.push_back({first, second});
-            });
+          tree.for_each_near_pair(meetings[begin], [&](std::int32_t one, std::int32_t other) {
+            if (pairs.size() <= limit && boxes[one].meets(boxes[other]) && intersect(one, other))
+              pairs.push_back({std::min(one, other), std::max(one, other)});
+          });
           return pairs;
         },
         [&](const Pairs& pairs) {

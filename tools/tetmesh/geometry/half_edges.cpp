@@ -11,27 +11,31 @@ namespace hexpipe::tetmesh::geometry {
 void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles,
                    const std::function<void(std::span<const HalfEdge>)>& visit) {
   // A counting sort by the lower vertex leaves a handful of half-edges to sort by the higher one.
-  const auto half_edge_count = static_cast<HalfEdge>(3 * triangles.size());
-  auto ends = [&](HalfEdge h) { return std::minmax({start_of(triangles, h), end_of(triangles, h)}); };
-  std::vector<HalfEdge> offsets(vertex_count + 1);
-  for (HalfEdge h = 0; h < half_edge_count; ++h) ++offsets[ends(h).first + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) offsets[v + 1] += offsets[v];
-  std::vector<HalfEdge> sorted(half_edge_count), next = offsets;
-  for (HalfEdge h = 0; h < half_edge_count; ++h) sorted[next[ends(h).first]++] = h;
+  const auto for_each_half_edge = [&](auto&& take) {
+    HalfEdge h = 0;
+    for (const auto& [a, b, c] : triangles)
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        take(std::min(from, to), std::max(from, to), h++);
+  };
+  std::vector<HalfEdge> ends(vertex_count + 1);  // by vertex: where its half-edges begin, and end once they are there
+  for_each_half_edge([&](Vertex low, Vertex, HalfEdge) { ++ends[low + 1]; });
+  for (std::size_t v = 0; v < vertex_count; ++v) ends[v + 1] += ends[v];
+  std::vector<std::uint64_t> keys(3 * triangles.size());  // the higher vertex, then the half-edge
+  for_each_half_edge([&](Vertex low, Vertex high, HalfEdge h) {
+    keys[ends[low]++] = static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint32_t>(h);
+  });
 
-  std::vector<std::uint64_t> keys;  // of the half-edges at a vertex: the higher vertex, then the half-edge
+  std::vector<HalfEdge> edge;
+  std::size_t begin = 0;
   for (std::size_t v = 0; v < vertex_count; ++v) {
-    const auto at_vertex = std::span(sorted).subspan(offsets[v], offsets[v + 1] - offsets[v]);
-    keys.clear();
-    for (const HalfEdge h : at_vertex)
-      keys.push_back(static_cast<std::uint64_t>(ends(h).second) << 32 | static_cast<std::uint32_t>(h));
-    std::ranges::sort(keys);
-    for (std::size_t i = 0; i < keys.size(); ++i) at_vertex[i] = static_cast<HalfEdge>(keys[i] & 0xffffffff);
-    for (std::size_t begin = 0; begin < keys.size();) {
-      std::size_t end = begin + 1;
-      while (end < keys.size() && keys[end] >> 32 == keys[begin] >> 32) ++end;
-      visit(at_vertex.subspan(begin, end - begin));
-      begin = end;
+    const std::size_t last = ends[v];
+    std::sort(keys.begin() + begin, keys.begin() + last);
+    while (begin < last) {
+      const std::uint64_t high = keys[begin] >> 32;
+      edge.clear();
+      for (; begin < last && keys[begin] >> 32 == high; ++begin)
+        edge.push_back(static_cast<HalfEdge>(keys[begin] & 0xffffffff));
+      visit(edge);
     }
   }
 }

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
 #include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
+#include "tools/tetmesh/sizing/exit_grid.hpp"
 
 namespace hexpipe::tetmesh::sizing {
 namespace {
@@ -19,6 +21,8 @@ constexpr double least_length = 1e-6;
 // At most this many pieces of a triangle send rays; beyond it, rays are more than a size apart.
 constexpr std::size_t most_parts = 1u << 20;
 constexpr std::int64_t triangles_at_once = 256;
+// With this many triangles for each square of the size, rays are many, and most of them are told apart by a grid.
+constexpr double dense = 8;
 
 using Corners = std::array<Vec3, 3>;
 using Walls = std::vector<SizePrism>;
@@ -29,7 +33,11 @@ class WallFinder {
       : surface_(surface),
         size_(size),
         layers_(layers),
-        tree_(geometry::tree_of_triangles(surface.points, surface.triangles)) {}
+        tree_(geometry::tree_of_triangles(surface.points, surface.triangles)) {
+    const bool has_interfaces =
+        std::ranges::any_of(surface.shells, [](const solid::Shell& s) { return s.in_front != solid::outside_region; });
+    if (!has_interfaces && is_dense()) exits_.emplace(surface.points, surface.triangles, layers * size);
+  }
 
   Walls find() const {
     return parallel_collect<SizePrism>(
@@ -38,6 +46,7 @@ class WallFinder {
   }
 
  private:
+  bool is_dense() const;
   void look_from(std::size_t triangle, Walls& walls) const;
   void look(const Corners& corners, const Vec3& inwards, Walls& walls) const;
   double thickness_at(const Vec3& from, const Vec3& inwards) const;
@@ -49,7 +58,15 @@ class WallFinder {
   double size_;
   int layers_;
   geometry::BoxTree tree_;
+  std::optional<ExitGrid> exits_;
 };
+
+bool WallFinder::is_dense() const {
+  double twice_area = 0;
+  for (const auto& [a, b, c] : surface_.triangles)
+    twice_area += norm(cross(surface_.points[b] - surface_.points[a], surface_.points[c] - surface_.points[a]));
+  return static_cast<double>(surface_.triangles.size()) * size_ * size_ > dense * twice_area / 2;
+}
 
 void WallFinder::look_from(std::size_t triangle, Walls& walls) const {
   const auto& [a, b, c] = surface_.triangles[triangle];
@@ -78,7 +95,9 @@ void WallFinder::look(const Corners& corners, const Vec3& inwards, Walls& walls)
       continue;
     }
     if (norm_squared(cross(part[1] - part[0], part[2] - part[0])) == 0) continue;
-    const double thickness = thickness_at((part[0] + part[1] + part[2]) * (1.0 / 3), inwards);
+    const Vec3 centre = (part[0] + part[1] + part[2]) * (1.0 / 3);
+    if (exits_ && !exits_->may_leave(centre, inwards)) continue;
+    const double thickness = thickness_at(centre, inwards);
     if (thickness < layers_ * size_)
       walls.push_back({part, thickness * inwards, std::max(thickness / layers_, least_part * size_)});
   }

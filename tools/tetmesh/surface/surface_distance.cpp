@@ -14,7 +14,7 @@ namespace {
 // The most cells along each axis, so that a small width does not fill the memory.
 constexpr double most_cells = 256;
 constexpr int most_samples_along_edge = 64;
-constexpr std::int64_t triangles_per_block = 256;
+constexpr std::int64_t triangles_per_block = 256, triangles_per_probe = 64;
 
 int parts_of(double length, double spacing) {
   return std::clamp(static_cast<int>(std::ceil(length / spacing)), 1, most_samples_along_edge);
@@ -180,14 +180,28 @@ SurfaceDistance one_sided_distance(std::span<const Vec3> points, std::span<const
                                    const sizing::SizeField& limit) {
   SurfaceDistance result;
   const SurfaceSampler sampler(points, triangles, spacing);
+  const auto count = static_cast<std::int64_t>(triangles.size());
+  // A distance that is neither the greatest nor beyond the limit need not be exact. A few triangles first tell how
+  // great the greatest is at least; most of the others then need no search.
+  parallel_in_order((count + triangles_per_probe - 1) / triangles_per_probe, triangles_per_block,
+                    [&](std::int64_t begin, std::int64_t end) {
+                      double greatest = 0;
+                      std::int32_t nearest = no_index;
+                      for (std::int64_t i = begin; i < end; ++i)
+                        sampler.for_each_sample(i * triangles_per_probe, [&](const Vec3& p) {
+                          greatest = std::max(greatest, other.distance(p, nearest, greatest));
+                        });
+                      return greatest;
+                    },
+                    [&](double greatest) { result.greatest = std::max(result.greatest, greatest); });
+  const double known = result.greatest;
   parallel_in_order(
-      static_cast<std::int64_t>(triangles.size()), triangles_per_block,
+      count, triangles_per_block,
       [&](std::int64_t begin, std::int64_t end) {
-        SurfaceDistance part;
+        SurfaceDistance part{known, {}};
         std::int32_t nearest = no_index;  // of the last sample, beside which the next one lies
         for (std::int64_t i = begin; i < end; ++i) {
           sampler.for_each_sample(i, [&](const Vec3& p) {
-            // A distance that is neither the greatest nor beyond the limit need not be exact.
             const double distance = other.distance(p, nearest, std::min(part.greatest, limit.least()));
             part.greatest = std::max(part.greatest, distance);
             if (!limit.is_at_least(distance, p)) part.beyond.push_back(p);
