@@ -35,15 +35,64 @@ TEST(PointStar, GradientsAreThoseOfTheValues) {
       PointStar star;
       star.add(kind, corners, moving);
       ASSERT_GT(star.size(), 0u);
-      for (std::size_t i = 0; i < star.size(); ++i) {
-        const Vec3 at = corners[moving], gradient = star.gradient(i, at);
-        constexpr double h = 1e-6;
-        auto slope = [&](const Vec3& d) { return (star.value(i, at + d * h) - star.value(i, at - d * h)) / (2 * h); };
-        EXPECT_NEAR(gradient.x, slope({1, 0, 0}), 1e-6);
-        EXPECT_NEAR(gradient.y, slope({0, 1, 0}), 1e-6);
-        EXPECT_NEAR(gradient.z, slope({0, 0, 1}), 1e-6);
+      const Vec3 at = corners[moving];
+      std::vector<Vec3> gradients;
+      star.find_gradients(at, gradients);
+      ASSERT_EQ(gradients.size(), star.size());
+      constexpr double h = 1e-6;
+      for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+        std::vector<double> behind, before;
+        star.find_values(at + d * h, behind);
+        star.find_values(at - d * h, before);
+        for (std::size_t i = 0; i < star.size(); ++i)
+          EXPECT_NEAR(dot(gradients[i], d), (behind[i] - before[i]) / (2 * h), 1e-6);
       }
     }
+}
+
+// Corners are measured several at a time, those with one formula together.
+TEST(PointStar, EachCornerHasTheValueThatItHasAlone) {
+  Random random(6);
+  PointStar star;
+  std::vector<double> values, expected;
+  std::vector<Vec3> gradients, expected_gradients;
+  const Vec3 at = random_point(random);
+  for (int element = 0; element < 40; ++element) {
+    const CellKind kind = all_kinds[element % all_kinds.size()];
+    std::vector<Vec3> corners;
+    for (int i = 0; i < corner_count(kind); ++i) corners.push_back(random_point(random));
+    const int moving = element % corner_count(kind);
+    const CornerRules rules{.weight = 0.5 + 0.01 * element};
+    PointStar alone;
+    alone.add(kind, corners, moving, rules);
+    alone.find_values(at, values);
+    expected.insert(expected.end(), values.begin(), values.end());
+    alone.find_gradients(at, gradients);
+    expected_gradients.insert(expected_gradients.end(), gradients.begin(), gradients.end());
+    star.add(kind, corners, moving, rules);
+    star.find_values(at, values);
+    EXPECT_EQ(values, expected);
+    star.find_gradients(at, gradients);
+    EXPECT_EQ(gradients, expected_gradients);
+    EXPECT_EQ(star.worst(at), std::ranges::min(expected));
+  }
+  star.clear();
+  star.find_values(at, values);
+  EXPECT_TRUE(values.empty());
+}
+
+// On the moving corner, and with edges without a length.
+TEST(PointStar, CornersWithoutALengthHaveTheValueZero) {
+  PointStar star;
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  star.add(CellKind::tet, corners, 3);
+  std::vector<double> values;
+  star.find_values(corners[0], values);
+  ASSERT_EQ(values.size(), 4u);
+  for (const double value : values) EXPECT_EQ(value, 0);
+  std::vector<Vec3> gradients;
+  star.find_gradients(corners[0], gradients);
+  for (const Vec3& gradient : gradients) EXPECT_TRUE(norm(gradient) < 2);
 }
 
 TEST(PointStar, AgreesWithTheQualityOfCells) {

@@ -28,27 +28,111 @@ constexpr int halvings = 5;
 // The first step is long enough to raise the score by this, by its linear model.
 constexpr double first_rise = 0.2;
 
-double product_of_norms(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return std::sqrt(norm_squared(a) * norm_squared(b) * norm_squared(c));
+// One number in a lane of each component.
+void set_lane(LaneVector& vectors, int lane, const Vec3& v) {
+  vectors.x[lane] = v.x, vectors.y[lane] = v.y, vectors.z[lane] = v.z;
+}
+
+LaneVector times(const LaneVector& a, const Lanes& s) {
+  return {a.x * s, a.y * s, a.z * s};
 }
 
 }  // namespace
 
+struct PointStar::Formulas {
+  static void find_values(std::span<const EndBlock> at_ends, std::span<const CornerBlock> at_corners, const Vec3& at,
+                          double* values);
+  static void find_gradients(std::span<const EndBlock> at_ends, std::span<const CornerBlock> at_corners, const Vec3& at,
+                             Vec3* gradients);
+
+  static LaneVector from(const Vec3& at) { return {Lanes{} + at.x, Lanes{} + at.y, Lanes{} + at.z}; }
+  static Lanes product_of_norms(const LaneVector& a, const LaneVector& b, const LaneVector& c) {
+    return square_root(norm_squared(a) * norm_squared(b) * norm_squared(c));
+  }
+  static Lanes values_of(const EndBlock& block, const LaneVector& at) {
+    const LaneVector a = at - block.corner;
+    const Lanes length = square_root(norm_squared(a));
+    return select(length > 0, block.scale * dot(a, block.normal) / length, Lanes{});
+  }
+  static Lanes values_of(const CornerBlock& block, const LaneVector& at) {
+    const auto& [first, second, third] = block.neighbours;
+    const LaneVector a = first - at, b = second - at, c = third - at;
+    const Lanes lengths = product_of_norms(a, b, c);
+    return select(lengths > 0, block.scale * det(a, b, c) / lengths, Lanes{});
+  }
+  static LaneVector gradients_of(const EndBlock& block, const LaneVector& at) {
+    const LaneVector a = at - block.corner;
+    const Lanes length = square_root(norm_squared(a));
+    const LaneVector across = block.normal - times(a, dot(a, block.normal) / (length * length));
+    const LaneVector there = times(across, block.scale / length), here = times(block.normal, block.scale);
+    return {select(length > 0, there.x, here.x), select(length > 0, there.y, here.y),
+            select(length > 0, there.z, here.z)};
+  }
+  static LaneVector gradients_of(const CornerBlock& block, const LaneVector& at) {
+    const auto& [first, second, third] = block.neighbours;
+    const LaneVector a = first - at, b = second - at, c = third - at;
+    const Lanes lengths = product_of_norms(a, b, c), quality = det(a, b, c) / lengths;
+    // The derivative by each end, then the corner moves against all three.
+    const LaneVector pulls =
+        times(a, 1 / norm_squared(a)) + times(b, 1 / norm_squared(b)) + times(c, 1 / norm_squared(c));
+    const LaneVector by_ends = times(cross(b, c) + cross(c, a) + cross(a, b), 1 / lengths) - times(pulls, quality);
+    const LaneVector result = times(by_ends, -block.scale);
+    return {select(lengths > 0, result.x, Lanes{}), select(lengths > 0, result.y, Lanes{}),
+            select(lengths > 0, result.z, Lanes{})};
+  }
+  template <class OneBlock>
+  static void put_values(const OneBlock& block, const LaneVector& at, double* values) {
+    const Lanes found = values_of(block, at);
+    for (int lane = 0; lane < block.count; ++lane) values[block.terms[lane]] = found[lane];
+  }
+  template <class OneBlock>
+  static void put_gradients(const OneBlock& block, const LaneVector& at, Vec3* gradients) {
+    const LaneVector found = gradients_of(block, at);
+    for (int lane = 0; lane < block.count; ++lane)
+      gradients[block.terms[lane]] = {found.x[lane], found.y[lane], found.z[lane]};
+  }
+};
+
+HEXPIPE_ANY_REGISTERS void PointStar::Formulas::find_values(std::span<const EndBlock> at_ends,
+                                                            std::span<const CornerBlock> at_corners, const Vec3& at,
+                                                            double* values) {
+  const LaneVector place = from(at);
+  for (const EndBlock& block : at_ends) put_values(block, place, values);
+  for (const CornerBlock& block : at_corners) put_values(block, place, values);
+}
+
+HEXPIPE_ANY_REGISTERS void PointStar::Formulas::find_gradients(std::span<const EndBlock> at_ends,
+                                                               std::span<const CornerBlock> at_corners, const Vec3& at,
+                                                               Vec3* gradients) {
+  const LaneVector place = from(at);
+  for (const EndBlock& block : at_ends) put_gradients(block, place, gradients);
+  for (const CornerBlock& block : at_corners) put_gradients(block, place, gradients);
+}
+
 void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, const CornerRules& rules) {
-  Term term{};
-  term.scale = kind == CellKind::tet ? rules.weight * tet_scale : rules.weight;
-  term.rules = rules;
-  term.mean_share = 1 / (rules.weight * rules.weight);
+  const Term term{rules.weight, 1 / (rules.weight * rules.weight), rules.enough, rules.floor};
+  const double scale = kind == CellKind::tet ? rules.weight * tet_scale : rules.weight;
   with_topology(kind, [&](auto topology) {
-    for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, term);
+    for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, term, scale);
   });
 }
 
-void PointStar::add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, const Term& model) {
-  Term term = model;
+// The lane of a new corner, which has this number.
+template <class OneBlock>
+int PointStar::next_lane(std::vector<OneBlock>& blocks, std::size_t term) {
+  if (blocks.empty() || blocks.back().count == lane_count) blocks.emplace_back();
+  Block& block = blocks.back();
+  block.terms[block.count] = static_cast<std::int32_t>(term);
+  return block.count++;
+}
+
+void PointStar::add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, const Term& term,
+                           double scale) {
   if (corner[0] == moving) {
-    term.fixed = {corners[corner[1]], corners[corner[2]], corners[corner[3]]};
-    term.is_corner = true;
+    const int lane = next_lane(at_corners_, terms_.size());
+    CornerBlock& block = at_corners_.back();
+    for (std::size_t i = 0; i < 3; ++i) set_lane(block.neighbours[i], lane, corners[corner[i + 1]]);
+    block.scale[lane] = scale;
     terms_.push_back(term);
     return;
   }
@@ -57,59 +141,43 @@ void PointStar::add_corner(std::span<const Vec3> corners, const LocalCorner& cor
     const Vec3 o = corners[corner[0]];
     const Vec3 b = corners[corner[i % 3 + 1]] - o, c = corners[corner[(i + 1) % 3 + 1]] - o;
     const double lengths = std::sqrt(norm_squared(b) * norm_squared(c));
-    term.fixed[0] = o;
-    term.normal = cross(b, c) * (lengths > 0 ? 1 / lengths : 0);
+    const int lane = next_lane(at_ends_, terms_.size());
+    EndBlock& block = at_ends_.back();
+    set_lane(block.corner, lane, o);
+    set_lane(block.normal, lane, cross(b, c) * (lengths > 0 ? 1 / lengths : 0));
+    block.scale[lane] = scale;
     terms_.push_back(term);
   }
 }
 
-double PointStar::value(std::size_t term, const Vec3& at) const {
-  const Term& t = terms_[term];
-  if (t.is_corner) {
-    const Vec3 a = t.fixed[0] - at, b = t.fixed[1] - at, c = t.fixed[2] - at;
-    const double lengths = product_of_norms(a, b, c);
-    return lengths > 0 ? t.scale * det(a, b, c) / lengths : 0;
-  }
-  const Vec3 a = at - t.fixed[0];
-  const double length = norm(a);
-  return length > 0 ? t.scale * dot(a, t.normal) / length : 0;
+void PointStar::find_values(const Vec3& at, std::vector<double>& values) const {
+  values.resize(terms_.size());
+  Formulas::find_values(at_ends_, at_corners_, at, values.data());
 }
 
-Vec3 PointStar::gradient(std::size_t term, const Vec3& at) const {
-  const Term& t = terms_[term];
-  if (!t.is_corner) {
-    const Vec3 a = at - t.fixed[0];
-    const double length = norm(a);
-    if (length == 0) return t.scale * t.normal;
-    return (t.scale / length) * (t.normal - a * (dot(a, t.normal) / (length * length)));
-  }
-  const Vec3 a = t.fixed[0] - at, b = t.fixed[1] - at, c = t.fixed[2] - at;
-  const double lengths = product_of_norms(a, b, c);
-  if (lengths == 0) return {};
-  const double quality = det(a, b, c) / lengths;
-  // The derivative by each end, then the corner moves against all three.
-  const Vec3 by_ends = (cross(b, c) + cross(c, a) + cross(a, b)) * (1 / lengths) -
-                       quality * (a * (1 / norm_squared(a)) + b * (1 / norm_squared(b)) + c * (1 / norm_squared(c)));
-  return -t.scale * by_ends;
+void PointStar::find_gradients(const Vec3& at, std::vector<Vec3>& gradients) const {
+  gradients.resize(terms_.size());
+  Formulas::find_gradients(at_ends_, at_corners_, at, gradients.data());
 }
 
 double PointStar::worst(const Vec3& at) const {
+  std::vector<double> values;
+  find_values(at, values);
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < terms_.size(); ++i) least = std::min(least, value(i, at));
+  for (const double value : values) least = std::min(least, value);
   return least;
 }
 
 void PointStar::measure(const Vec3& at, Measures& measures) const {
   measures.at = at;
-  measures.values.resize(terms_.size());
+  find_values(at, measures.values);
   double worst = std::numeric_limits<double>::infinity(), worst_unweighted = worst;
   double sum = 0, shares = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    const double weighted = value(i, at), unweighted = weighted / weight(i);
-    measures.values[i] = weighted;
+    const double weighted = measures.values[i], unweighted = weighted / weight(i);
     worst = std::min(worst, weighted);
     worst_unweighted = std::min(worst_unweighted, unweighted);
-    sum += mean_share(i) * std::min(unweighted, terms_[i].rules.enough);
+    sum += mean_share(i) * std::min(unweighted, terms_[i].enough);
     shares += mean_share(i);
   }
   measures.worst = worst, measures.worst_unweighted = worst_unweighted;
@@ -123,12 +191,8 @@ PointStar::Measures PointStar::measured(const Vec3& at) const {
 }
 
 bool PointStar::exceeds(const Vec3& at, double bound, std::vector<double>& values) const {
-  values.resize(terms_.size());
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    values[i] = value(i, at);
-    if (!(values[i] > bound)) return false;
-  }
-  return true;
+  find_values(at, values);
+  return std::ranges::all_of(values, [&](double value) { return value > bound; });
 }
 
 bool PointStar::keeps_floors(const Measures& before, const Measures& after) const {
@@ -140,9 +204,12 @@ bool PointStar::keeps_floors(const Measures& before, const Measures& after) cons
 }
 
 bool PointStar::keeps_floors(const Vec3& before, const Vec3& at) const {
+  std::vector<double> values_before, values;
+  find_values(at, values);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    const double there = value(i, at);
-    if (is_below_floor(i, there) && there < value(i, before)) return false;
+    if (!is_below_floor(i, values[i])) continue;
+    if (values_before.empty()) find_values(before, values_before);
+    if (values[i] < values_before[i]) return false;
   }
   return true;
 }
@@ -192,8 +259,8 @@ struct Linearization {
     for (const double value : values) worst = std::min(worst, value);
   }
   void find_gradients(const PointStar& star, const Vec3& at, const Freedom& freedom) {
-    gradients.resize(star.size());
-    for (std::size_t i = 0; i < star.size(); ++i) gradients[i] = freedom.allowed(star.gradient(i, at));
+    star.find_gradients(at, gradients);
+    for (Vec3& gradient : gradients) gradient = freedom.allowed(gradient);
   }
 
   // Where along `direction` another corner would become the worst, if all were linear.
@@ -222,8 +289,7 @@ bool is_direction(const Vec3& sum, std::span<const Vec3> gradients) {
 Placement raise_worst(const PointStar& star, const Vec3& start, int steps, const Freedom& freedom) {
   Linearization here;
   std::vector<Vec3> active;
-  here.values.resize(star.size());
-  for (std::size_t i = 0; i < star.size(); ++i) here.values[i] = star.value(i, start);
+  star.find_values(start, here.values);
   here.find_worst();
   Placement best{start, here.worst};
   if (freedom.kind == Freedom::Kind::none) return best;
@@ -299,13 +365,14 @@ Placement raise_score(const PointStar& star, const PointStar::Measures& start, i
   double score = star.score_of(best);
   double shares = 0;
   for (std::size_t i = 0; i < star.size(); ++i) shares += star.mean_share(i);
-  std::vector<Vec3> gradients;
+  std::vector<Vec3> of_corners, gradients;
   for (int step = 0; step < steps; ++step) {
     gradients = {star.pull()};
     Vec3 sum = star.pull();
+    star.find_gradients(best.at, of_corners);
     for (std::size_t i = 0; i < star.size(); ++i) {
       if (star.is_enough(i, best.values[i])) continue;
-      gradients.push_back(star.gradient(i, best.at) * (star.mean_share(i) / star.weight(i) / shares));
+      gradients.push_back(of_corners[i] * (star.mean_share(i) / star.weight(i) / shares));
       sum += gradients.back();
     }
     const Vec3 direction = freedom.allowed(freedom.allowed(sum));

@@ -2,10 +2,12 @@
 // The quality of the elements around one vertex as a function of where it stands, and the search for its best place.
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "common/mesh/cell_topology.hpp"
+#include "common/mesh/lanes.hpp"
 #include "common/mesh/vec3.hpp"
 
 namespace hexpipe::assemble::shape {
@@ -22,7 +24,7 @@ struct CornerRules {
 // regular tet has 1.
 class PointStar {
  public:
-  void clear() { terms_.clear(), pull_ = {}; }
+  void clear() { terms_.clear(), at_ends_.clear(), at_corners_.clear(), pull_ = {}; }
   bool empty() const { return terms_.empty(); }
   // Adds the corners of an element that involve its corner `moving`. The position given for that one is not used.
   void add(CellKind kind, std::span<const Vec3> corners, int moving, const CornerRules& rules = {});
@@ -31,13 +33,15 @@ class PointStar {
   const Vec3& pull() const { return pull_; }
 
   std::size_t size() const { return terms_.size(); }
-  double value(std::size_t term, const Vec3& at) const;
-  Vec3 gradient(std::size_t term, const Vec3& at) const;
-  double weight(std::size_t term) const { return terms_[term].rules.weight; }
+  // The value of each corner, in the order in which they were added, and how it changes with the place; into lists
+  // whose memory is used again.
+  void find_values(const Vec3& at, std::vector<double>& values) const;
+  void find_gradients(const Vec3& at, std::vector<Vec3>& gradients) const;
+  double weight(std::size_t term) const { return terms_[term].weight; }
   // The corner's share in the mean: larger if its weight makes it the worst sooner.
   double mean_share(std::size_t term) const { return terms_[term].mean_share; }
   // Whether the mean would not count a higher value than this one of the corner.
-  bool is_enough(std::size_t term, double value) const { return value / weight(term) >= terms_[term].rules.enough; }
+  bool is_enough(std::size_t term, double value) const { return value / weight(term) >= terms_[term].enough; }
   // The least value over all corners.
   double worst(const Vec3& at) const;
 
@@ -60,21 +64,37 @@ class PointStar {
   bool keeps_floors(const Measures& before, const Measures& after) const;
 
  private:
-  bool is_below_floor(std::size_t term, double value) const { return value < weight(term) * terms_[term].rules.floor; }
+  bool is_below_floor(std::size_t term, double value) const { return value < weight(term) * terms_[term].floor; }
 
-  // Either the moving vertex is the corner itself, and `fixed` its three neighbours; or it is one of the neighbours,
-  // fixed[0] is the corner, and `normal` the cross product of the unit edges to the other two.
   struct Term {
-    std::array<Vec3, 3> fixed;
-    Vec3 normal;
-    double scale;  // the weight, for a tet times the square root of 2
-    double mean_share;
-    CornerRules rules;
-    bool is_corner;
+    double weight, mean_share, enough, floor;
   };
-  void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, const Term& model);
+  // Corners whose formula is the same, as many as there are lanes; `terms` has the numbers of the first `count`.
+  struct Block {
+    std::array<std::int32_t, lane_count> terms{};
+    int count = 0;
+  };
+  // The moving vertex is one of the neighbours of `corner`, and `normal` is the cross product of the unit edges to the
+  // other two.
+  struct alignas(lane_bytes) EndBlock : Block {
+    LaneVector corner, normal;
+    Lanes scale{};  // the weight, for a tet times the square root of 2
+  };
+  // The moving vertex is the corner itself.
+  struct alignas(lane_bytes) CornerBlock : Block {
+    std::array<LaneVector, 3> neighbours;
+    Lanes scale{};
+  };
+  // Formulas for all lanes of a block.
+  struct Formulas;
+
+  void add_corner(std::span<const Vec3> corners, const LocalCorner& corner, int moving, const Term& term, double scale);
+  template <class OneBlock>
+  static int next_lane(std::vector<OneBlock>& blocks, std::size_t term);
 
   std::vector<Term> terms_;
+  std::vector<EndBlock> at_ends_;
+  std::vector<CornerBlock> at_corners_;
   Vec3 start_{}, pull_{};
 };
 
