@@ -57,6 +57,27 @@ TEST(ThinOut, LeavesFewTrianglesNearTheSurface) {
   }
 }
 
+// Three triangles around a thin neck cannot become two.
+TEST(ThinOut, ThinNecksStayManifold) {
+  constexpr int rings = 40;
+  Facets tube;
+  const auto at = [](int ring, int i) {
+    const double along = static_cast<double>(ring) / rings, radius = 0.2 + 4 * (along - 0.5) * (along - 0.5);
+    return testing::rim_point(3, i, ring == 0 || ring == rings ? 0.5 * radius : radius, 4 * along);
+  };
+  for (int ring = 0; ring < rings; ++ring)
+    for (int i = 0; i < 3; ++i) {
+      tube.push_back({at(ring, i), at(ring, i + 1), at(ring + 1, i + 1)});
+      tube.push_back({at(ring, i), at(ring + 1, i + 1), at(ring + 1, i)});
+    }
+  tube.push_back({at(0, 2), at(0, 1), at(0, 0)});
+  tube.push_back({at(rings, 0), at(rings, 1), at(rings, 2)});
+  const Surface surface = surface_of(tube);
+  const Surface thinned = thin_out(surface, 179, 0.5, 4);
+  EXPECT_NO_THROW(check_surface(thinned));
+  EXPECT_LT(2 * thinned.triangles.size(), surface.triangles.size());
+}
+
 TEST(ThinOut, KeepsEdgesTagsShellsAndCurves) {
   Surface surface = surface_of(joined(cube(0, 1, 20), cube(2, 1, 20)));
   // The middle of the top is a curve.

@@ -102,9 +102,7 @@ class Thinner {
     std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
     for (const Choice& choice : choices_) {
       const auto end = mesh_.to_vertex_handle(choice.collapse);
-      if (!turns_little_after(end) || !is_smooth_after() || !mesh_.is_collapse_ok(choice.collapse) ||
-          !find_new_faces(end))
-        continue;
+      if (!turns_little_after(end) || !is_smooth_after() || !is_manifold_after(end) || !find_new_faces(end)) continue;
       mesh_.collapse_edge(choice.collapse);
       touched_[end.idx()] = round;
       for (const Wedge& wedge : wedges_) {
@@ -169,6 +167,24 @@ class Thinner {
       wedge.normal = unit(cross(mesh_.position(wedge.from) - at, mesh_.position(wedge.to) - at));
       const bool turns = dot(wedge.normal, normals_[wedge.face.idx()]) < least_cosine_;
       if (turns && dot(wedge.normal, normal_around()) < least_cosine_) return false;
+    }
+    return true;
+  }
+
+  // Whether the vertex that goes and the end have no neighbour in common but the two across their edge. OpenMesh's
+  // is_collapse_ok() asks for more only at borders, where no vertex goes, and marks the vertices around both.
+  bool is_manifold_after(FeatureMesh::VertexHandle end) const {
+    FeatureMesh::VertexHandle left, right;
+    for (const Wedge& wedge : wedges_) {
+      if (wedge.to == end) left = wedge.from;
+      if (wedge.from == end) right = wedge.to;
+    }
+    if (left == right) return false;
+    for (const auto h : mesh_.voh_range(end)) {
+      const auto other = mesh_.to_vertex_handle(h);
+      if (other == left || other == right) continue;
+      for (const Wedge& wedge : wedges_)
+        if (wedge.from == other) return false;
     }
     return true;
   }
