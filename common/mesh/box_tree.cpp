@@ -12,13 +12,25 @@ template <class Thing, class CentreOf, class NumberOf>
 std::size_t halve(std::span<Thing> things, CentreOf&& centre_of, NumberOf&& number_of) {
   Box around{centre_of(things[0]), centre_of(things[0])};
   for (const Thing& thing : things) around.add({centre_of(thing), centre_of(thing)});
-  const int axis = around.longest_axis();
   const std::size_t half = things.size() / 2;
-  std::nth_element(things.begin(), things.begin() + static_cast<std::ptrdiff_t>(half), things.end(),
-                   [&](const Thing& a, const Thing& b) {
-                     const double at_a = centre_of(a)[axis], at_b = centre_of(b)[axis];
-                     return at_a < at_b || (at_a == at_b && number_of(a) < number_of(b));
-                   });
+  // A comparison need not ask which axis it is.
+  const auto halve_along = [&]<double Vec3::*axis>() {
+    std::nth_element(things.begin(), things.begin() + static_cast<std::ptrdiff_t>(half), things.end(),
+                     [&](const Thing& a, const Thing& b) {
+                       const double at_a = centre_of(a).*axis, at_b = centre_of(b).*axis;
+                       return at_a < at_b || (at_a == at_b && number_of(a) < number_of(b));
+                     });
+  };
+  switch (around.longest_axis()) {
+    case 0:
+      halve_along.template operator()<&Vec3::x>();
+      break;
+    case 1:
+      halve_along.template operator()<&Vec3::y>();
+      break;
+    default:
+      halve_along.template operator()<&Vec3::z>();
+  }
   return half;
 }
 
