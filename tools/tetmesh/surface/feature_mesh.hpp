@@ -121,6 +121,9 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   void collapse_edge(HalfedgeHandle h);
 
  private:
+  void join_ends(HalfedgeHandle h);
+  void remove_loop(HalfedgeHandle h);
+  void begin_at_border(VertexHandle v);
   VertexHandle add_removable(const Vec3& p, bool on_feature);
   VertexHandle split_one_edge_at(EdgeHandle e, const Vec3& p);
   void add_whole(const solid::Surface& surface);
