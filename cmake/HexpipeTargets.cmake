@@ -4,7 +4,8 @@ add_library(hexpipe_flags INTERFACE)
 target_compile_options(hexpipe_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-align
   # No fused multiply-add: the same input gives the same bytes on every machine.
   -ffp-contract=off
-  # Nobody asks errno about a square root: without it a root is one instruction, and several can be taken at once.
+  # No code reads errno after a mathematical function: without it a square root is one instruction, and several can be
+  # taken at once.
   -fno-math-errno
   # The standard library of g++ 12 itself calls what C++20 has deprecated, and clang++ tells of it.
   $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>)

@@ -41,11 +41,11 @@ TEST(PointStar, GradientsAreThoseOfTheValues) {
       ASSERT_EQ(gradients.size(), star.size());
       constexpr double h = 1e-6;
       for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-        std::vector<double> behind, before;
-        star.find_values(at + d * h, behind);
-        star.find_values(at - d * h, before);
+        std::vector<double> ahead, behind;
+        star.find_values(at + d * h, ahead);
+        star.find_values(at - d * h, behind);
         for (std::size_t i = 0; i < star.size(); ++i)
-          EXPECT_NEAR(dot(gradients[i], d), (behind[i] - before[i]) / (2 * h), 1e-6);
+          EXPECT_NEAR(dot(gradients[i], d), (ahead[i] - behind[i]) / (2 * h), 1e-6);
       }
     }
 }

@@ -50,8 +50,8 @@ void declare_annealing(CLI::App& app, CommandLine& line) {
   line.of_annealing = {
       app.add_option("--hot", line.options.hot,
                      "Annealing: the first temperature, in mean weights of a chosen vertex; lower to keep more of the "
-                     "greedy start. If this or --cold is given, dense graphs have one cooling alone, too [0.3, higher "
-                     "if few are chosen]")
+                     "greedy start. If this or --cold is given, dense graphs get no short coolings [0.3, higher if few "
+                     "are chosen]")
           ->check(number_between(1e-6, 1e6)),
       app.add_option("--cold", line.options.cold,
                      "Annealing: the last temperature, in the same unit [0.03, higher if few are chosen]")

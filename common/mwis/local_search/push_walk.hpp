@@ -17,8 +17,8 @@ class PushWalk {
   // `start` must be independent. It is made maximal.
   PushWalk(const graph::ConflictGraph& graph, const graph::IndependentSet& start, Random random);
 
-  // Draws up to so many vertices at this temperature, in units of weight; fewer if the deadline passes. Returns the
-  // greatest weight on the way.
+  // Draws up to so many vertices at this temperature, in units of weight and above 0; fewer if the deadline passes.
+  // Returns the greatest weight on the way.
   std::int64_t run(std::int64_t trials, double temperature, const Deadline& deadline);
 
   // The vertices drawn, and the total number of neighbours of those that went in or out. Both take the time.

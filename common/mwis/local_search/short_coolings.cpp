@@ -45,7 +45,8 @@ bool ShortCoolings::suit(const graph::ConflictGraph& graph, std::int64_t chosen)
 ShortCoolings::ShortCoolings(const graph::ConflictGraph& graph, const graph::IndependentSet& start, Random random)
     : walk_(graph, start, random), trials_a_unit_(trials_a_vertex * std::max(1, graph.vertex_count())) {
   const std::size_t chosen = walk_.best().size();
-  const double mean = chosen > 0 ? static_cast<double>(walk_.best_weight()) / static_cast<double>(chosen) : 1;
+  const double mean =
+      walk_.best_weight() > 0 ? static_cast<double>(walk_.best_weight()) / static_cast<double>(chosen) : 1;
   hot_ = first_hot * mean;
   cold_ = first_cold * mean;
   usual_temperature_ = std::sqrt(hot_ * cold_);
@@ -78,6 +79,7 @@ void ShortCoolings::begin_cooling() {
   cold_ = usual_temperature_ / spread;
 }
 
+// A cooling that does not beat the set it began with counts as hot: it makes the next one hotter.
 void ShortCoolings::end_cooling() {
   const double share = coolings_ == 1 ? 1 : share_of_last;
   if (heaviest_ > 0) usual_temperature_ *= std::pow(temperature_of_heaviest_ / usual_temperature_, share);

@@ -3,7 +3,8 @@
 //
 // A ray that starts in the material first meets a triangle from behind: one whose normal does not point against it. So
 // a grid of cells suffices, each of which knows roughly which normals its triangles have. On a scan, where triangles
-// are far shorter than the rays, all normals around the start of most rays point against them.
+// are far shorter than the rays, all normals around the start of most rays point against them. A ray that leaves
+// through a wall thinner than rounding may meet another wall from the front; that one is no wall of this material.
 
 #include <array>
 #include <cstdint>

@@ -247,8 +247,6 @@ FeatureMesh::VertexHandle FeatureMesh::split_face_at(FaceHandle f, const Vec3& p
   return v;
 }
 
-// Two pairs of edges become one edge each; at a border it is one pair. The edge that survives is a feature if one of
-// its pair was.
 // The same as OpenMesh's collapse(), which Debian builds with its checks: these look up the type of each property at
 // each access, and took a twentieth of tetmesh's time on a large scan.
 void FeatureMesh::join_ends(HalfedgeHandle h) {
@@ -304,6 +302,8 @@ void FeatureMesh::begin_at_border(VertexHandle v) {
   } while (h != first);
 }
 
+// Two pairs of edges become one edge each; at a border it is one pair. The edge that survives is a feature if one of
+// its pair was.
 void FeatureMesh::collapse_edge(HalfedgeHandle h) {
   const VertexHandle end = to_vertex_handle(h);
   std::array<std::pair<VertexHandle, EdgeRole>, 2> sides;

@@ -144,7 +144,7 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   std::vector<int> next_copy_;        // by vertex, in a ring; a vertex without copies has itself
   std::vector<std::int32_t> place_;   // by vertex
   std::vector<std::int32_t> source_;  // by face
-  std::vector<bool> is_held_;         // by face; it ends where no later face is held
+  std::vector<bool> is_held_;         // by face; empty until one is held
   std::vector<bool> is_interface_;    // by triangle of the input
 };
 

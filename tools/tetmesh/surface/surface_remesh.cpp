@@ -1,7 +1,7 @@
 // The steps: sample features, and the middles of small fillets, as densely as rows of points should begin there; make
 // the triangles that carry the field; put points on them by a front; insert these points; remove all other vertices.
-// The result is judged as a whole. In the next attempt, points of the input that came too far from it are watched, and
-// around other faults the input's own vertices stay.
+// The result is judged as a whole. In the next attempt, what came too far, on either surface, is measured closely, and
+// around other faults the input's own vertices stay; in the last two, its triangles do.
 
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
@@ -35,14 +35,15 @@ constexpr double flatness = 1e-5;
 constexpr double snap = 0.02;
 // Distances are measured at points this far apart, in sizes.
 constexpr double sample_spacing = 0.34;
-// The share of the deviation that removing vertices may use. It knows only the distances of vertices.
+// The share of the deviation that removing vertices may use. It measures only vertices, and some points of edges and
+// faces.
 constexpr double removal_share = 0.85;
 // A surface with this many triangles for each new one is thinned out first, within this share of the deviation; new
 // edges are at most this many sizes long.
 constexpr double dense = 8, thinning_share = 0.2, thin_edge = 0.7;
-// Around a fault, the nearest vertex within this many sizes stays, unless a vertex that stays is as near already. If
-// that does not help in `careful_attempts`, all triangles within that reach stay, and in the next attempt those within
-// twice the reach.
+// Around a fault that is none of distance, the nearest vertex within this many sizes stays, unless a vertex that stays
+// is as near already. If that does not help in `careful_attempts`, all triangles within that reach of any fault stay,
+// and in the next attempt those within twice the reach.
 constexpr double fault_reach = 0.5;
 constexpr int careful_attempts = 4, most_attempts = 6;
 // On the new surface; each takes about 2 KB while the surface is made.
@@ -147,6 +148,7 @@ bool SurfaceRemesher::Work::make() {
 bool SurfaceRemesher::Work::judge() {
   const Faults faults = find_faults();
   const auto& [places, too_far] = faults;
+  // A point may come again; that only takes time.
   append(watch_.left_behind, too_far.left_behind);
   append(watch_.strayed, too_far.strayed);
   if (result.attempts < careful_attempts) {
@@ -218,6 +220,7 @@ void SurfaceRemesher::Work::place_front(const RowGuide& guide) {
 void SurfaceRemesher::Work::follow(const RowGuide& guide) {
   result = {};
   prepared_ = carrier_->mesh;
+  // What is watched stays: a face strays, and leaves points behind, where the input is narrow, on any points.
   place_front(guide);
   is_prepared_ = true;
 }

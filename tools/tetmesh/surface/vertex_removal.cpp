@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/mesh/box_tree.hpp"
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/geometry/sized_point_grid.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/mesh_regions.hpp"
@@ -103,10 +103,38 @@ void watch_points(const FeatureMesh& mesh, std::span<const Vec3> watched, Strays
   }
 }
 
+// Places where faces strayed from the original surface.
+class StrayedPlaces {
+ public:
+  StrayedPlaces(std::span<const Vec3> places, const sizing::SizeField& deviation)
+      : boxes_(boxes_around(places, deviation)), tree_(boxes_, std::vector<double>(boxes_.size())) {}
+
+  // Whether a place is within `stray_reach` deviations of the face's bounding box, along each axis.
+  bool are_near(const Corners& face) const {
+    const Box around = Box::around(face);
+    bool found = false;
+    tree_.for_each_near(around, [&](std::int32_t i) { found = found || boxes_[i].meets(around); });
+    return found;
+  }
+
+ private:
+  static std::vector<Box> boxes_around(std::span<const Vec3> places, const sizing::SizeField& deviation) {
+    std::vector<Box> boxes;
+    for (const Vec3& p : places) {
+      const double reach = stray_reach * deviation.at(p);
+      boxes.push_back({p - Vec3{reach, reach, reach}, p + Vec3{reach, reach, reach}});
+    }
+    return boxes;
+  }
+
+  std::vector<Box> boxes_;
+  BoxTree tree_;
+};
+
 class VertexRemover {
  public:
   VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation, Strays& strays,
-                const geometry::SizedPointGrid& strayed)
+                const StrayedPlaces& strayed)
       : mesh_(mesh), original_(original), deviation_(&deviation), strays_(strays), strayed_(strayed) {}
   // A remover that changes nothing outside a region.
   VertexRemover(const VertexRemover& whole, const MeshRegions& regions, std::size_t region) : VertexRemover(whole) {
@@ -168,7 +196,7 @@ class VertexRemover {
   const sizing::SizeField* deviation_;
   bool only_thin_ = false;
   Strays& strays_;
-  const geometry::SizedPointGrid& strayed_;
+  const StrayedPlaces& strayed_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere
   std::size_t region_ = 0;
   std::vector<Choice> choices_;
@@ -315,17 +343,7 @@ bool VertexRemover::faces_fit() {
 }
 
 bool VertexRemover::fits_closely(const Corners& face) {
-  if (strayed_.points().empty()) return true;
-  const Vec3 middle = middle_of(face);
-  double reach = 0;
-  for (const Vec3& corner : face) reach = std::max(reach, norm(corner - middle));
-  reach += stray_reach * deviation_->at(middle);
-  bool is_beside = false;
-  strayed_.for_each_near(middle, reach, 0, [&](std::int32_t) {
-    is_beside = true;
-    return false;
-  });
-  if (!is_beside) return true;
+  if (!strayed_.are_near(face)) return true;
   for (int i = 0; i <= close_parts; ++i)
     for (int j = 0; i + j <= close_parts; ++j)
       if (!is_near((1.0 / close_parts) * (i * face[0] + j * face[1] + (close_parts - i - j) * face[2]))) return false;
@@ -374,8 +392,7 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   };
   Strays strays = samples_of_edges(mesh, deviation);
   watch_points(mesh, watch.left_behind, strays);
-  geometry::SizedPointGrid strayed(watch.strayed.empty() ? Vec3{} : watch.strayed.front());
-  for (const Vec3& p : watch.strayed) strayed.add(p, deviation.greatest());
+  const StrayedPlaces strayed(watch.strayed, deviation);
   VertexRemover everywhere(mesh, original, deviation, strays, strayed);
   std::vector<VertexH> at_joints;
   for (const VertexH v : mesh.vertices())
