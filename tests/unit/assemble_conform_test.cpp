@@ -140,5 +140,27 @@ TEST(Conform, CellsThatWouldCloseAHoleGoBack) {
   }
 }
 
+// The same with the tet below that has one of the two triangles: between it and the quad there is a slit.
+TEST(Conform, ACellThatWouldCloseASlitGoesBack) {
+  TetMesh mesh;
+  mesh.points = {{0, 0, 0.1}, {1, 0, 0}, {1, 1, 0.1}, {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
+  mesh.tets = {{0, 1, 2, 4}, {0, 2, 3, 4}, {0, 3, 1, 5}};
+  for (auto& tet : mesh.tets)
+    if (tet_determinant(mesh.points, tet) < 0) std::swap(tet[2], tet[3]);
+  mesh.tet_tags = {1, 1, 1};
+  Candidates pyramid;
+  pyramid.vertices = {{0, 1, 2, 3, 4, -1, -1, -1}};
+  pyramid.kind = {CellKind::pyramid};
+  pyramid.quality = {0.5};
+  pyramid.volume = {0.3};
+  pyramid.tets = testing::list_of<TetIndex>({0, 1});
+  pyramid.tet_offsets = {0, 2};
+  pyramid.boundary_tet_offsets = {0, 0};
+  const auto result = assemble::assemble(mesh, pyramid, {0}, {});
+  EXPECT_EQ(result.mesh.tets.size(), 3u);
+  EXPECT_EQ(result.mesh.pyramids.size(), 0u);
+  EXPECT_EQ(result.statistics.conformity.given_back[static_cast<std::size_t>(GivenBack::diagonal_on_surface)], 1);
+}
+
 }  // namespace
 }  // namespace hexpipe

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "common/mwis/local_search/annealing.hpp"
 #include "common/run/parallel.hpp"
 #include "random_graphs.hpp"
 #include "tests/unit/random_cases.hpp"
-#include "common/mwis/local_search/annealing.hpp"
 #include "tools/initsol/initsol.hpp"
 
 namespace hexpipe {

@@ -60,8 +60,9 @@ Prepared checked_input(TetMesh mesh, const Candidates& candidates, const choice:
   return Prepared(std::move(mesh), adjacency);
 }
 
-// Whether a quad of the candidate has tagged triangles along both diagonals: its four vertices span a hole, or an
-// interface around a tet. On the far side nothing can tell the quad from these two triangles.
+// Whether a quad of the candidate has three or four of its halves, along both diagonals, among the tagged triangles:
+// its four vertices span a slit or a hole, or an interface around a tet. On the far side nothing can tell the quad from
+// the triangles along its other diagonal, or from the one that is there.
 bool closes_a_hole(const hybrid::SurfaceTags& tags, const Candidates& candidates, CandidateIndex candidate) {
   hybrid::HybridCell cell;
   cell.kind = candidates.kind[candidate];
@@ -71,7 +72,7 @@ bool closes_a_hole(const hybrid::SurfaceTags& tags, const Candidates& candidates
     int tagged = 0;
     for (int diagonal = 0; diagonal < 2; ++diagonal)
       for (const auto& half : triangles_of(cell.quad(i), diagonal)) tagged += tags.contains(half);
-    if (tagged == 4) return true;
+    if (tagged >= 3) return true;
   }
   return false;
 }
