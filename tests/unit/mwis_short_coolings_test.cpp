@@ -21,10 +21,7 @@ TEST(PushWalk, StaysConsistentAtEveryTemperature) {
       std::int64_t heaviest = walk.best_weight();
       for (int round = 0; round < 20; ++round) {
         heaviest = std::max(heaviest, walk.run(100, temperature, no_deadline));
-        ASSERT_TRUE(walk.check());
-        const IndependentSet set = walk.best();
-        ASSERT_NO_THROW(validate(set, graph, "best"));
-        EXPECT_EQ(total_weight(set, graph), walk.best_weight());
+        ASSERT_NO_FATAL_FAILURE(hexpipe::testing::check_consistency(walk, graph));
         EXPECT_EQ(walk.best_weight(), heaviest);
       }
       EXPECT_EQ(walk.trials(), 20 * 100);

@@ -1,6 +1,8 @@
 #pragma once
 // Small conflict graphs for tests, their heaviest independent sets by trying everything, and lists of candidates.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <set>
@@ -47,6 +49,15 @@ inline std::vector<std::int64_t> random_weights(std::int32_t vertices, std::int6
   std::vector<std::int64_t> weights(vertices);
   for (auto& weight : weights) weight = static_cast<std::int64_t>(random.below(heaviest + 1));
   return weights;
+}
+
+// The search's own state is right, and its best set is one of the graph's, with the weight that it tells.
+template <class Search>
+void check_consistency(const Search& search, const ConflictGraph& graph) {
+  ASSERT_TRUE(search.check());
+  const IndependentSet set = search.best();
+  ASSERT_NO_THROW(validate(set, graph, "best"));
+  EXPECT_EQ(total_weight(set, graph), search.best_weight());
 }
 
 // Every edge with the same probability; weights from 0 to `heaviest`, a small one for many ties.

@@ -50,9 +50,8 @@ void FeatureMesh::join_copies(VertexHandle v, VertexHandle other) {
 }
 
 Vec3 FeatureMesh::area_normal(FaceHandle f) const {
-  const auto [a, b, c] = corners(f);
-  const Vec3 origin = position(a);
-  return cross(position(b) - origin, position(c) - origin);
+  const auto [a, b, c] = positions(f);
+  return cross(b - a, c - a);
 }
 
 std::array<FeatureMesh::VertexHandle, 3> FeatureMesh::corners(FaceHandle f) const {
