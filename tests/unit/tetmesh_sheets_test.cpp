@@ -164,6 +164,44 @@ TEST(FeatureMesh, WherePiecesTouchInAVertexAloneIsACorner) {
   EXPECT_EQ(corners, (std::vector<Vec3>{{0, 0, 1}, {0, 0, 1}}));
 }
 
+// On a closed surface, and on sheets with borders.
+TEST(FeatureMesh, CollapsesEdgesAsOpenMeshDoes) {
+  FeatureMesh in_sheets(sheets_of(boxes_with_common_face()), 40);
+  refine_surface(in_sheets, 0.26, 1e-6);
+  ASSERT_TRUE(std::ranges::any_of(in_sheets.edges(), [&](const auto e) { return in_sheets.is_boundary(e); }));
+  for (FeatureMesh ours : {FeatureMesh(testing::surface_of(testing::sphere({0, 0, 0}, 1, 8)), 179), in_sheets}) {
+    ASSERT_TRUE(ours.is_manifold());
+    FeatureMesh theirs = ours;
+    int collapses = 0;
+    for (std::size_t i = 0; i < ours.n_halfedges(); i += 7) {
+      const FeatureMesh::HalfedgeHandle h(static_cast<int>(i));
+      if (!ours.is_collapse_ok(h)) continue;
+      ++collapses;
+      ours.collapse_edge(h);
+      theirs.collapse(h);
+      for (const auto v : theirs.all_vertices()) {
+        ASSERT_EQ(ours.status(v).deleted(), theirs.status(v).deleted());
+        ASSERT_EQ(ours.halfedge_handle(v), theirs.halfedge_handle(v));
+      }
+      for (const auto f : theirs.all_faces()) {
+        ASSERT_EQ(ours.status(f).deleted(), theirs.status(f).deleted());
+        if (theirs.status(f).deleted()) continue;
+        ASSERT_EQ(ours.halfedge_handle(f), theirs.halfedge_handle(f));
+      }
+      for (const auto other : theirs.all_halfedges()) {
+        const auto edge = theirs.edge_handle(other);
+        ASSERT_EQ(ours.status(edge).deleted(), theirs.status(edge).deleted());
+        if (theirs.status(edge).deleted()) continue;
+        ASSERT_EQ(ours.next_halfedge_handle(other), theirs.next_halfedge_handle(other));
+        ASSERT_EQ(ours.prev_halfedge_handle(other), theirs.prev_halfedge_handle(other));
+        ASSERT_EQ(ours.to_vertex_handle(other), theirs.to_vertex_handle(other));
+        ASSERT_EQ(ours.face_handle(other), theirs.face_handle(other));
+      }
+    }
+    EXPECT_GT(collapses, 20);
+  }
+}
+
 TEST(OppositeSides, AnInterfaceIsSeenFromBothOfItsSides) {
   FeatureMesh mesh(sheets_of(boxes_with_common_face()), 40);
   refine_surface(mesh, 0.26, 1e-6);

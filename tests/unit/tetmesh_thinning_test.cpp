@@ -57,44 +57,6 @@ TEST(ThinOut, LeavesFewTrianglesNearTheSurface) {
   }
 }
 
-// On a closed surface, and on one with a border.
-TEST(FeatureMesh, CollapsesEdgesAsOpenMeshDoes) {
-  for (const std::size_t left_out : {0u, 40u}) {
-    Surface surface = surface_of(sphere({0, 0, 0}, 1, 8));
-    surface.triangles.resize(surface.triangles.size() - left_out);
-    FeatureMesh ours(surface, 179);
-    ASSERT_TRUE(ours.is_manifold());
-    FeatureMesh theirs = ours;
-    int collapses = 0;
-    for (std::size_t i = 0; i < ours.n_halfedges(); i += 7) {
-      const FeatureMesh::HalfedgeHandle h(static_cast<int>(i));
-      if (!ours.is_collapse_ok(h)) continue;
-      ++collapses;
-      ours.collapse_edge(h);
-      theirs.collapse(h);
-      for (const auto v : theirs.all_vertices()) {
-        ASSERT_EQ(ours.status(v).deleted(), theirs.status(v).deleted());
-        ASSERT_EQ(ours.halfedge_handle(v), theirs.halfedge_handle(v));
-      }
-      for (const auto f : theirs.all_faces()) {
-        ASSERT_EQ(ours.status(f).deleted(), theirs.status(f).deleted());
-        if (theirs.status(f).deleted()) continue;
-        ASSERT_EQ(ours.halfedge_handle(f), theirs.halfedge_handle(f));
-      }
-      for (const auto other : theirs.all_halfedges()) {
-        const auto edge = theirs.edge_handle(other);
-        ASSERT_EQ(ours.status(edge).deleted(), theirs.status(edge).deleted());
-        if (theirs.status(edge).deleted()) continue;
-        ASSERT_EQ(ours.next_halfedge_handle(other), theirs.next_halfedge_handle(other));
-        ASSERT_EQ(ours.prev_halfedge_handle(other), theirs.prev_halfedge_handle(other));
-        ASSERT_EQ(ours.to_vertex_handle(other), theirs.to_vertex_handle(other));
-        ASSERT_EQ(ours.face_handle(other), theirs.face_handle(other));
-      }
-    }
-    EXPECT_GT(collapses, 20);
-  }
-}
-
 // Three triangles around a thin neck cannot become two.
 TEST(ThinOut, ThinNecksStayManifold) {
   constexpr int rings = 40;
