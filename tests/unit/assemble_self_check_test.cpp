@@ -125,6 +125,34 @@ TEST_F(SelfCheck, FindsAChangedVolume) {
   EXPECT_THAT(error(), HasSubstr("expected a volume of"));
 }
 
+// The quad 0 1 2 3 of a pyramid, and on the other side of a slit a tet with the facet 0 1 3.
+TEST(SelfCheckOfASlit, FindsATriangleOnHalfOfAQuad) {
+  TetMesh input;
+  input.points = {{0, 0, 0.1}, {1, 0, 0}, {1, 1, 0.1}, {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
+  input.tets = {{0, 1, 2, 4}, {0, 2, 3, 4}, {0, 1, 5, 3}};
+  input.tet_tags = {1, 1, 1};
+  add_missing_boundary_triangles(input, TetAdjacency(input, "test"), 7);
+  Extract result;
+  result.mesh.points = input.points;
+  result.origin = {0, 1, 2, 3, 4, 5};
+  const auto add = [](auto& block, const auto& corners, std::int32_t tag) {
+    block.cells.push_back(corners);
+    block.tags.push_back(tag);
+  };
+  add(result.mesh.pyramids, std::array<Vertex, 5>{0, 1, 2, 3, 4}, 1);
+  add(result.mesh.tets, Tet{0, 1, 5, 3}, 1);
+  add(result.mesh.quads, Quad{0, 1, 2, 3}, 7);
+  for (const Triangle& triangle :
+       {Triangle{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 1, 3}, {0, 1, 5}, {1, 3, 5}, {3, 0, 5}})
+    add(result.mesh.triangles, triangle, 7);
+  try {
+    check_result(result, input, SurfaceTags(input), InputSurface(input, TetAdjacency(input, "mesh")), true);
+    FAIL() << "found nothing";
+  } catch (const DataError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("half of a quad"));
+  }
+}
+
 TEST_F(SelfCheck, FindsAQuadAgainstTwoTriangles) {
   auto& mesh = result_.mesh;
   const auto pyramid = mesh.pyramids.cells[0];

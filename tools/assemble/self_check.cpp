@@ -68,6 +68,15 @@ std::optional<int> open_diagonal(const Quad& quad, hybrid::CellFacets& table) {
   return std::nullopt;
 }
 
+// Whether a cell has a triangle of three of the quad's corners. At the boundary it may be the other side of a thin
+// slit, which the quad closes by half.
+bool has_half_facet(const Quad& quad, hybrid::CellFacets& table) {
+  for (int diagonal = 0; diagonal < 2; ++diagonal)
+    for (const auto& half : triangles_of(quad, diagonal))
+      if (table.find(hybrid::FacetForm::of(half)) != nullptr) return true;
+  return false;
+}
+
 double volume_over(std::span<const Vec3> points, const Vec3& origin, const Triangle& t) {
   return det(points[t[0]] - origin, points[t[1]] - origin, points[t[2]] - origin) / 6;
 }
@@ -115,6 +124,8 @@ void check_facets(const hybrid::Extract& result, const hybrid::SurfaceTags& tags
       continue;
     }
     if (!entry.tagged) fail("expected cells on both sides of a quad, found one at vertex {} with one side", at);
+    if (conforming && has_half_facet(quad, table))
+      fail("expected no triangle on half of a quad, found one at vertex {}", at);
     Quad input_quad;
     for (int i = 0; i < 4; ++i) input_quad[i] = result.origin[quad[i]];
     volumes.bulge += bulge_of(mesh.points, quad, tags.cover_of(input_quad, 0) ? 0 : 1);
@@ -232,6 +243,8 @@ double check_layered(const MixedMesh& mesh, std::span<const Vertex> origin, cons
     const bool is_outer = entry.uses == 1, is_interface = !is_outer && entry.regions[0] != entry.regions[1];
     if ((is_outer || is_interface) && !entry.tagged)
       fail("expected facets of the boundary and of interfaces to be tagged, found one at vertex {} that is not", at);
+    if (is_outer && entry.is_quad() && has_half_facet(quad_of(entry), table))
+      fail("expected no triangle on half of a quad, found one at vertex {}", at);
   }
   check_origins(mesh, origin, input);
   check_on_surface(shape::BoundaryDeviation(mesh, surface, input.points, origin), surface);

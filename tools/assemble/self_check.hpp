@@ -30,7 +30,7 @@ struct CheckedVolumes {
 // Throws DataError if a cell is not valid everywhere, a facet has more than two cells or two on the same side, a facet
 // of one cell or between two regions is not tagged, a tagged facet belongs to no cell, a vertex is unused, a vertex of
 // the boundary is not on the input's surface, volumes do not add up, or, in a conforming result, a quad faces two
-// triangles.
+// triangles or a boundary quad has a triangle on one of its halves.
 CheckedVolumes check_result(const hybrid::Extract& result, const TetMesh& input, const hybrid::SurfaceTags& tags,
                             const shape::InputSurface& surface, bool conforming);
 
