@@ -68,7 +68,7 @@ template <class Topology>
 void ConflictFinder::collect_lower_of_kind(std::size_t i, SortedSet& found) const {
   const CandidateIndex self(i);
   for (const TetIndex tet : candidates_.interior_tets_of(i))
-    for (const auto entry : tets_.with_key(tet, 0)) {
+    for (const auto entry : tets_.in_bucket(static_cast<std::size_t>(tet))) {
       const CandidateIndex j = SharingIndex::candidate_of(entry);
       if (j >= self) break;
       found.insert(j);

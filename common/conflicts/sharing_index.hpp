@@ -34,9 +34,16 @@ class SharingIndex {
       things_of(i, [&](std::size_t bucket, std::uint32_t key) {
         entries_[next[bucket]++] = static_cast<Entry>(key) << 32 | static_cast<Entry>(i);
       });
+    // Candidates ascend already where all keys of a bucket are the same.
     parallel_for(static_cast<std::int64_t>(bucket_count), buckets_a_block, [&](std::int64_t bucket) {
-      std::sort(entries_.begin() + offsets_[bucket], entries_.begin() + offsets_[bucket + 1]);
+      const auto begin = entries_.begin() + offsets_[bucket], end = entries_.begin() + offsets_[bucket + 1];
+      if (!std::is_sorted(begin, end)) std::sort(begin, end);
     });
+  }
+
+  // All things of the bucket, ascending by key, then by candidate.
+  std::span<const Entry> in_bucket(std::size_t bucket) const {
+    return {entries_.begin() + offsets_[bucket], entries_.begin() + offsets_[bucket + 1]};
   }
 
   // The candidates that have a thing with this key, ascending.

@@ -1,7 +1,7 @@
 #include "tools/initsol/greedy.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <vector>
 
 namespace hexpipe::initsol {
 
@@ -17,13 +17,21 @@ std::vector<double> merits(const graph::ConflictGraph& graph, GreedyOrder order,
 }
 
 graph::IndependentSet greedy(const graph::ConflictGraph& graph, std::span<const double> merits) {
-  std::vector<std::int32_t> order(graph.weights.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](std::int32_t a, std::int32_t b) { return merits[a] > merits[b]; });
+  // Merits lie beside their vertices, so that sorting reads no others.
+  struct Entry {
+    double merit;
+    std::int32_t vertex;
+  };
+  std::vector<Entry> order;
+  order.reserve(merits.size());
+  for (const double merit : merits) order.push_back({merit, static_cast<std::int32_t>(order.size())});
+  std::ranges::sort(order, [](const Entry& a, const Entry& b) {
+    return a.merit > b.merit || (a.merit == b.merit && a.vertex < b.vertex);
+  });
 
   std::vector<char> excluded(graph.weights.size(), 0);
   graph::IndependentSet solution;
-  for (const std::int32_t v : order) {
+  for (const auto& [merit, v] : order) {
     if (excluded[v]) continue;
     solution.push_back(v);
     for (const std::int32_t u : graph.neighbours_of(v)) excluded[u] = 1;

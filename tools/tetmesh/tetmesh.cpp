@@ -20,6 +20,7 @@
 #include "tools/tetmesh/solid/repair_steps.hpp"
 #include "tools/tetmesh/solid/sheets.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
+#include "tools/tetmesh/tetgen/numbering.hpp"
 #include "tools/tetmesh/volume/estimates.hpp"
 
 namespace hexpipe::tetmesh {
@@ -66,8 +67,13 @@ MeshedSurface best_of_tries(const solid::Surface& surface, const sizing::SizeDem
   return *std::move(best);
 }
 
+// Whether the user's own points are promised to stay in their order.
+bool keeps_order(const TetmeshOptions& options) {
+  return options.surface == SurfaceKind::keep || options.points == PointKind::given;
+}
+
 // Describes the mesh, and moves it to where it is wanted.
-TetmeshResult finish(MeshedSurface meshed, const solid::Surface& given) {
+TetmeshResult finish(MeshedSurface meshed, const solid::Surface& given, const TetmeshOptions& options) {
   const Stopwatch watch;
   const solid::Surface& surface = meshed.surface(given);
   const tetgen::BuiltMesh& built = meshed.built;
@@ -84,6 +90,7 @@ TetmeshResult finish(MeshedSurface meshed, const solid::Surface& given) {
   s.volume = shape.volume;
   s.least_dihedral = shape.least_dihedral;
   s.greatest_dihedral = shape.greatest_dihedral;
+  if (!keeps_order(options)) tetgen::number_along_curve(meshed.built.mesh, s.added_points);
   s.seconds.building += watch.seconds();
   return {std::move(meshed.built.mesh), given.names, std::move(s), std::move(meshed.warnings),
           std::move(meshed.dislocations)};
@@ -166,7 +173,7 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   step.reset();
   if (options.improve > 0)
     improve(meshed, surface, {options.improve, options.seed, options.time_limit, options.tetgen_timeout});
-  TetmeshResult result = finish(std::move(meshed), surface);
+  TetmeshResult result = finish(std::move(meshed), surface, options);
   result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
   if (options.repair || (repaired && repaired->anything())) result.statistics.repair = repaired;
   if (options.unite) result.statistics.united_bodies = united;
