@@ -31,7 +31,7 @@ constexpr double comfortable = 0.25;
 // One new vertex may come for so many chosen cells, because each costs a few cells. Hexes lose no more than this share
 // of their volume, most of which they take back.
 constexpr std::size_t chosen_per_vertex = 300;
-constexpr double share_of_volume = 1e-3;
+constexpr double share_of_volume = 2e-4;
 // What a hex that goes counts in the objective, and how many are tried beside a cell.
 constexpr double price_of_hex = 4;
 constexpr std::size_t most_tries_of_opening = 8;

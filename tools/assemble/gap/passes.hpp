@@ -73,7 +73,7 @@ std::int64_t count_refused(const GapMesh& gap);
 bool has_refused_hex(const GapMesh& gap);
 
 // Mends what is counted: vertices move, rooms are filled anew, or a new vertex comes, one for 300 chosen cells at most.
-// Hexes lose 0.1 % of their volume at most. No cell of the gap falls below least_quality that was not below before.
+// Hexes lose 0.02 % of their volume at most. No cell of the gap falls below least_quality that was not below before.
 MendCounts mend_refused(GapMesh& gap);
 // The same down to least_wanted. Chosen cells may go, too: prisms and pyramids that are counted, and hexes, one of
 // 1,000.
