@@ -94,6 +94,23 @@ double face_flatness(std::span<const Vec3> corners) {
   return size / (sum + tiny);
 }
 
+double diagonal_sight(std::span<const Vec3> corners, const Vec3& behind, const Vec3& before) {
+  const double size = std::sqrt(norm(face_shape(corners).area));
+  if (size < tiny) return 0;
+  double best = -1;
+  for (std::size_t first = 0; first < 2; ++first) {
+    double least = 1;
+    for (const std::size_t from : {first, first + 2}) {
+      const Vec3 a = corners[from], b = corners[(from + 1) % 4], c = corners[(from + 2) % 4];
+      const Vec3 normal = cross(b - a, c - a);
+      const double length = norm(normal) * size + tiny;
+      least = std::min({least, dot(before - a, normal) / length, dot(a - behind, normal) / length});
+    }
+    best = std::max(best, least);
+  }
+  return best;
+}
+
 double cell_determinant(CellKind kind, std::span<const Vec3> corners, std::span<const std::uint8_t> inner) {
   std::array<Vec3, 6> areas;
   std::size_t count = 0, face_number = 0;

@@ -38,6 +38,11 @@ inline constexpr double low_weight = 0.05;
 double face_flatness(std::span<const Vec3> corners);
 inline constexpr double low_flatness = 0.8;
 
+// How well a diagonal of a quad suits the cells on both sides: the least height of the two centres over the planes of
+// its two triangles, in roots of the face's area, for the better diagonal. checkMesh counts the face among its bad
+// "face tets" where it is not positive. The corners are counter-clockwise as seen from `before`.
+double diagonal_sight(std::span<const Vec3> corners, const Vec3& behind, const Vec3& before);
+
 // How well the faces that have a neighbour span space: the determinant of the sum of the squares (dyads) of their areas
 // by their mean size, over 8. 1 for a cube that has six neighbours, 0 for a cell that has two or less. `inner` tells
 // for each face, triangles before quads as in cell_topology.hpp, whether it has one. checkMesh counts cells below 0.001.

@@ -490,6 +490,15 @@ TEST(Objective, ACellCostsWhereItsFacesDoNotSpanSpace) {
   EXPECT_NEAR(cost_of_span(0), 1, 1e-12);
 }
 
+TEST(Objective, WhatSolversRefuseCostsSeveralCells) {
+  EXPECT_EQ(cost_of_refused_span(0.001), 0);
+  EXPECT_NEAR(cost_of_refused_span(0.0005), 1.5 * price_of_refusal, 1e-12);
+  EXPECT_EQ(cost_of_refused_weight(0.05), 0);
+  EXPECT_NEAR(cost_of_refused_weight(0), 2 * price_of_refusal, 1e-12);
+  EXPECT_EQ(cost_of_refused_sight(0.01), 0);
+  EXPECT_NEAR(cost_of_refused_sight(-0.5), 1.5 * price_of_refusal, 1e-12);
+}
+
 // Four tets around a point: with all of them in the mesh each has three neighbours, and a fourth side on the boundary.
 TEST(FaceCosts, CountCellsThatHaveTooFewNeighbours) {
   TetMesh mesh;
@@ -503,7 +512,12 @@ TEST(FaceCosts, CountCellsThatHaveTooFewNeighbours) {
   EXPECT_EQ(cost_of_faces(GapMesh(whole, tags, {}), first), 0) << "neighbours are found in the mesh";
   mesh.tets.resize(2), mesh.tet_tags.resize(2);
   HybridMesh half(mesh, std::vector<bool>(2));
-  EXPECT_NEAR(cost_of_faces(GapMesh(half, tags, {}), two), 2, 1e-12) << "one neighbour each";
+  GapMesh gap(half, tags, {});
+  EXPECT_NEAR(cost_of_faces(gap, two), 2, 1e-12) << "one neighbour each";
+  EXPECT_FALSE(is_refused(gap, first.front()));
+  gap.be_strict();
+  EXPECT_NEAR(cost_of_faces(gap, two), 2 + 4 * price_of_refusal, 1e-12);
+  EXPECT_TRUE(is_refused(gap, first.front()));
 }
 
 // A flat tet under a tall one: the line between their centres runs far off the normal of their face.
@@ -630,6 +644,101 @@ TEST(FewerCells, AHexGivesWayWhereACellBesideItStaysPoor) {
     EXPECT_TRUE(has_tagged_skin(after, tags));
     EXPECT_NEAR(after.volume, 8, 1e-12);
   }
+}
+
+std::int64_t count_refused(HybridMesh& mesh, const SurfaceTags& tags) {
+  GapMesh gap(mesh, tags, {});
+  gap.be_strict();
+  return std::ranges::count_if(all_cells(gap), [&](GapIndex c) { return is_refused(gap, c); });
+}
+
+// Cubes at the edges of the lattice that are not chosen leave tets with two facets on the boundary.
+TEST(MendRefused, OneVertexComesForSoManyChosenCells) {
+  std::int64_t before_all = 0, after_all = 0, come = 0;
+  for (const int n : {7, 8})
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      SCOPED_TRACE(seed);
+      Random random(seed);
+      auto lattice = testing::make_lattice(n);
+      testing::tag_boundary(lattice.mesh);
+      SurfaceTags tags(lattice.mesh);
+      const shape::InputSurface input(lattice.mesh, TetAdjacency(lattice.mesh, "test"));
+      const auto chosen = testing::candidates_in(testing::random_choice(lattice, 0.7, random));
+      HybridMesh hybrid = choice::Selection(lattice.mesh, tags, lattice.cubes, chosen, {}).take_mesh();
+      conform::make_conforming(hybrid, tags, lattice.cubes, 1e-4);
+      make_fewer_cells(hybrid, {tags, input}, {}, Passes::merge_and_refill);
+      const auto old_points = static_cast<Vertex>(hybrid.points.size());
+      before_all += count_refused(hybrid, tags);
+      make_fewer_cells(hybrid, {tags, input}, {}, Passes::mend_refused);
+      after_all += count_refused(hybrid, tags);
+      std::set<Vertex> added;
+      for (const auto& [facet, times] : Census(hybrid).uses)
+        for (const Vertex v : facet)
+          if (v >= old_points) added.insert(v);
+      EXPECT_LE(added.size(), chosen.size() / 300) << n;
+      come += static_cast<std::int64_t>(added.size());
+    }
+  EXPECT_GT(come, 0);
+  EXPECT_LT(after_all, before_all);
+}
+
+TEST(MendRefused, NothingButTheCellsBetweenHexesChanges) {
+  std::int64_t changed = 0, before_all = 0, after_all = 0;
+  constexpr std::int64_t seeds = hexpipe::testing::random_cases(300);
+  for (std::int64_t seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    ConformingScene scene(seed, Random(seed));
+    scene.make_fewer(Passes::merge_and_refill);
+    const Census before(scene.hybrid);
+    if (!before.valid) continue;
+    const auto refused = count_refused(scene.hybrid, scene.tags);
+    const double hex_volume = scene.hex_volume();
+    const auto counts = scene.make_fewer(Passes::mend_refused);
+    const auto left = count_refused(scene.hybrid, scene.tags);
+    const Census after(scene.hybrid);
+    ASSERT_TRUE(after.valid);
+    ASSERT_FALSE(after.crowded);
+    ASSERT_NEAR(after.volume, before.volume, 1e-10);
+    ASSERT_EQ(after.skin(), before.skin());
+    ASSERT_TRUE(has_tagged_skin(after, scene.tags));
+    ASSERT_GE(after.worst, std::min(before.worst, least_quality) - 1e-12);
+    ASSERT_TRUE(counts.any() || left == refused);
+    ASSERT_GE(scene.hex_volume(), hex_volume * (1 - 0.00021));
+    EXPECT_EQ(counts.opened.size(), 0u);
+    before_all += refused, after_all += left;
+    changed += counts.any();
+  }
+  EXPECT_GT(changed, seeds / 3);
+  EXPECT_LT(5 * after_all, 4 * before_all);
+}
+
+// The last step is all or nothing.
+TEST(MendRefused, ChosenCellsGoOnlyIfNothingIsRefusedAfterwards) {
+  int done = 0, undone = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    ConformingScene scene(seed, Random(seed));
+    const Census before(scene.hybrid);
+    if (!before.valid) continue;
+    const auto refused = count_refused(scene.hybrid, scene.tags);
+    const std::vector<Vec3> points = scene.hybrid.points;
+    const auto counts = scene.make_fewer(Passes::open_for_refused);
+    const Census after(scene.hybrid);
+    EXPECT_TRUE(after.valid);
+    EXPECT_FALSE(after.crowded);
+    EXPECT_NEAR(after.volume, before.volume, 1e-10);
+    EXPECT_GE(after.worst, std::min(before.worst, least_wanted) - 1e-12);
+    if (counts.any()) {
+      EXPECT_EQ(count_refused(scene.hybrid, scene.tags), 0);
+      ++done;
+      continue;
+    }
+    undone += refused > 0;
+    EXPECT_TRUE(std::equal(points.begin(), points.end(), scene.hybrid.points.begin()));
+    EXPECT_EQ(after.count, before.count);
+  }
+  EXPECT_GT(done, 3);
+  EXPECT_GT(undone, 3);
 }
 
 TEST(GrowHexes, GrowUntilTheyHaveTheVolumeAskedFor) {

@@ -65,6 +65,19 @@ TEST(FaceMeasures, OrthogonalityAndWeightFollowTheLineBetweenTheCentres) {
   EXPECT_NEAR(face_weight(face, {1, 0, 0}, {2, 0, 0}), 0, 1e-15);
 }
 
+// Corners 0 and 2 lie higher than 1 and 3, so that the diagonal 02 is a ridge, and 13 a valley, as seen from above.
+TEST(FaceMeasures, ADiagonalSuitsBothCellsUnlessBothAreFlat) {
+  const auto sight = [](double warp, double below, double above) {
+    const std::array<Vec3, 4> quad{Vec3{0, 0, warp}, {1, 0, -warp}, {1, 1, warp}, {0, 1, -warp}};
+    return diagonal_sight(quad, {0.5, 0.5, -below}, {0.5, 0.5, above});
+  };
+  EXPECT_NEAR(sight(0, 0.3, 0.2), 0.2, 1e-12);
+  EXPECT_GT(sight(0.1, 0.05, 0.5), 0) << "the ridge is above the lower centre";
+  EXPECT_GT(sight(0.1, 0.5, 0.05), 0) << "the valley is below the upper centre";
+  EXPECT_LT(sight(0.1, 0.05, 0.05), 0);
+  EXPECT_EQ(sight(0.1, 0.05, 0.05), sight(-0.1, 0.05, 0.05));
+}
+
 TEST(FaceMeasures, FlatnessFallsAsAQuadWarps) {
   EXPECT_NEAR(face_flatness(std::span(cube).first(4)), 1, 1e-15);
   EXPECT_EQ(face_flatness(std::span(warped).first(3)), 1);

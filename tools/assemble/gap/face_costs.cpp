@@ -42,11 +42,18 @@ std::span<const std::uint8_t> corners_of_face(CellKind kind, std::size_t face) {
   });
 }
 
-FaceShape shape_of(const FacesOf& cell, std::size_t face) {
+struct FaceCorners {
   std::array<Vec3, 4> at;
   std::size_t count = 0;
-  for (const std::uint8_t i : corners_of_face(cell.kind, face)) at[count++] = cell.points[i];
-  return face_shape(std::span<const Vec3>(at).first(count));
+
+  FaceCorners(const FacesOf& cell, std::size_t face) {
+    for (const std::uint8_t i : corners_of_face(cell.kind, face)) at[count++] = cell.points[i];
+  }
+};
+
+FaceShape shape_of(const FacesOf& cell, std::size_t face) {
+  const FaceCorners corners(cell, face);
+  return face_shape(std::span<const Vec3>(corners.at).first(corners.count));
 }
 
 Facet facet_of(const FacesOf& cell, std::size_t face) {
@@ -108,8 +115,25 @@ double determinant_of(const FacesOf& cell, const InnerFaces& inner) {
   return cell_determinant(cell.kind, std::span<const Vec3>(cell.points).first(count), inner);
 }
 
-double cost_between(const FaceShape& shape, const Vec3& behind, const Vec3& before) {
-  return cost_of_face(orthogonality(shape, behind, before), face_weight(shape, behind, before));
+double cost_between(const GapMesh& gap, const FacesOf& cell, std::size_t face, const Vec3& behind, const Vec3& before) {
+  const FaceShape shape = shape_of(cell, face);
+  const double weight = face_weight(shape, behind, before);
+  double cost = cost_of_face(orthogonality(shape, behind, before), weight);
+  if (!gap.is_strict()) return cost;
+  cost += cost_of_refused_weight(weight);
+  const FaceCorners corners(cell, face);
+  return corners.count == 4 ? cost + cost_of_refused_sight(diagonal_sight(corners.at, behind, before)) : cost;
+}
+
+double span_cost(const GapMesh& gap, const FacesOf& cell, const InnerFaces& inner) {
+  const double determinant = determinant_of(cell, inner);
+  if (!gap.is_strict()) return cost_of_span(determinant);
+  return cost_of_span(determinant) + cost_of_refused_span(determinant);
+}
+
+// Whether the span of a cell's faces costs something: that of chosen hexes, whose faces are as they are, never does.
+bool has_span_cost(const GapMesh& gap, CellKind kind, bool is_kept) {
+  return !is_kept || (gap.is_strict() && kind != CellKind::hex);
 }
 
 // The centres of the cells that are judged. Those of chosen cells are computed only where one of their faces counts.
@@ -133,34 +157,63 @@ class Centres {
 
 }  // namespace
 
-double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const GapIndex> instead_of) {
-  if (!gap.counts_faces()) return 0;
+FaceGraph::FaceGraph(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const GapIndex> instead_of)
+    : gap_(&gap), inner_(cells.size()) {
   std::vector<Side> sides;
   sides.reserve(6 * cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) append_sides(cells[c], c, sides);
   std::sort(sides.begin(), sides.end());
-  double cost = 0;
-  Centres centres(cells);
-  std::vector<InnerFaces> inner(cells.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side& side = sides[i];
     const FacesOf& cell = cells[side.cell];
     if (i + 1 < sides.size() && sides[i + 1].has_key_of(side)) {
       const Side& other = sides[++i];
-      inner[side.cell][side.face] = inner[other.cell][other.face] = 1;
-      if (!cell.is_kept || !cells[other.cell].is_kept)
-        cost += cost_between(shape_of(cell, side.face), centres.of(side.cell), centres.of(other.cell));
+      inner_[side.cell][side.face] = inner_[other.cell][other.face] = 1;
+      if (!cell.is_kept || !cells[other.cell].is_kept) faces_.push_back({side.cell, side.face, other.cell});
       continue;
     }
-    if (cell.is_kept) continue;
+    if (!has_span_cost(gap, cell.kind, cell.is_kept)) continue;
     if (const auto beyond = centre_behind(gap, facet_of(cell, side.face).reversed(), instead_of)) {
-      cost += cost_between(shape_of(cell, side.face), centres.of(side.cell), *beyond);
-      inner[side.cell][side.face] = 1;
+      if (!cell.is_kept) faces_.push_back({side.cell, side.face, none, *beyond});
+      inner_[side.cell][side.face] = 1;
     }
   }
+}
+
+double FaceGraph::cost(std::span<const FacesOf> cells) const {
+  double cost = 0;
+  Centres centres(cells);
+  for (const Face& face : faces_)
+    cost += cost_between(*gap_, cells[face.cell], face.face, centres.of(face.cell),
+                         face.other == none ? face.beyond : centres.of(face.other));
   for (std::size_t c = 0; c < cells.size(); ++c)
-    if (!cells[c].is_kept) cost += cost_of_span(determinant_of(cells[c], inner[c]));
+    if (has_span_cost(*gap_, cells[c].kind, cells[c].is_kept)) cost += span_cost(*gap_, cells[c], inner_[c]);
   return cost;
+}
+
+double FaceGraph::cost_at(std::span<const FacesOf> cells, std::span<const std::size_t> changing) const {
+  const auto changes = [&](std::size_t c) { return c != none && std::ranges::binary_search(changing, c); };
+  double cost = 0;
+  Centres centres(cells);
+  for (const Face& face : faces_)
+    if (changes(face.cell) || changes(face.other))
+      cost += cost_between(*gap_, cells[face.cell], face.face, centres.of(face.cell),
+                           face.other == none ? face.beyond : centres.of(face.other));
+  for (const std::size_t c : changing)
+    if (has_span_cost(*gap_, cells[c].kind, cells[c].is_kept)) cost += span_cost(*gap_, cells[c], inner_[c]);
+  return cost;
+}
+
+double cost_of_faces(const GapMesh& gap, std::span<const FacesOf> cells, std::span<const GapIndex> instead_of) {
+  return gap.counts_faces() ? FaceGraph(gap, cells, instead_of).cost(cells) : 0;
+}
+
+double cost_of_kept_span(const GapMesh& gap, KeptIndex c) {
+  const KeptCell& cell = gap.kept_cell(c);
+  if (!has_span_cost(gap, cell.kind, true)) return 0;
+  FacesOf faces = faces_of(gap, cell.kind, cell.vertices());
+  faces.is_kept = true;
+  return cost_of_faces(gap, std::span(&faces, 1), {});
 }
 
 double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::span<const GapIndex> instead_of) {
@@ -180,6 +233,10 @@ double cost_of_faces(const GapMesh& gap, GapIndex c) {
     known = {age, cost_of_faces(gap, std::span(&faces, 1), std::span(&c, 1))};
   }
   return known.cost;
+}
+
+bool is_refused(const GapMesh& gap, GapIndex c) {
+  return gap.is_strict() && gap.is_alive(c) && cost_of_faces(gap, c) >= price_of_refusal;
 }
 
 double cost_of_faces(const GapMesh& gap, std::span<const GapIndex> cells) {

@@ -1,12 +1,16 @@
 #include "tools/assemble/gap/fewer_cells.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "tools/assemble/gap/gap_mesh.hpp"
 #include "tools/assemble/gap/passes.hpp"
 
 namespace hexpipe::assemble::gap {
 namespace {
+
+constexpr std::int64_t most_refused = 20;
 
 FewerCells merge(GapMesh& gap, const Surface& surface) {
   FewerCells counts;
@@ -26,6 +30,24 @@ FewerCells merge_and_refill(GapMesh& gap, const Surface& surface) {
   return counts;
 }
 
+// Smoothing gives hexes the volume back that they lost before; now it is over.
+template <class Mend>
+FewerCells mend_and_grow(GapMesh& gap, Mend&& mend) {
+  FewerCells counts;
+  const double hex_volume = hex_volume_of(gap);
+  MendCounts mended = mend(gap);
+  counts.mended = mended.mended;
+  counts.opened = std::move(mended.opened);
+  counts.grown = grow_hexes(gap, hex_volume - hex_volume_of(gap));
+  return counts;
+}
+
+// Whether so few cells are refused, and no hex, that all of them can be mended.
+bool may_pass(const GapMesh& gap) {
+  const std::int64_t refused = count_refused(gap);
+  return refused > 0 && refused <= most_refused && !has_refused_hex(gap);
+}
+
 }  // namespace
 
 FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
@@ -41,14 +63,24 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
     case Passes::merge_and_refill:
       counts = merge_and_refill(gap, surface);
       break;
-    case Passes::mend: {
-      const double hex_volume = hex_volume_of(gap);
+    case Passes::mend:
       // The pieces of a mesh would have to agree on chosen cells that go.
-      MendCounts mended = mend(gap, is_shared.empty());
-      counts.mended = mended.mended;
-      counts.opened = std::move(mended.opened);
-      // Smoothing gives hexes the volume back that they lost before; now it is over.
-      counts.grown = grow_hexes(gap, hex_volume - hex_volume_of(gap));
+      counts = mend_and_grow(gap, [&](GapMesh& poor) { return mend(poor, is_shared.empty()); });
+      break;
+    case Passes::mend_refused:
+      gap.be_strict();
+      counts = mend_and_grow(gap, [](GapMesh& strict) { return mend_refused(strict); });
+      break;
+    case Passes::open_for_refused: {
+      gap.be_strict();
+      if (!may_pass(gap) || !is_shared.empty()) return counts;
+      const std::vector<Vec3> before = mesh.points;
+      counts = mend_and_grow(gap, open_for_refused);
+      // Worse cells, or one hex less, are worth it only if nothing is left that is refused.
+      if (count_refused(gap) > 0) {
+        std::ranges::copy(before, mesh.points.begin());
+        return {};
+      }
       break;
     }
   }

@@ -37,7 +37,9 @@ struct Surface {
 enum class Passes {
   merge,             // vertices into neighbours, whatever faces cost: for a mesh that has not been smoothed yet
   merge_and_refill,  // all merges, and small rooms filled anew
-  mend               // only what is poor becomes better: for a mesh that is not smoothed any more
+  mend,              // only what is poor becomes better: for a mesh that is not smoothed any more
+  mend_refused,      // the same for what checkMesh counts as wrong
+  open_for_refused   // the same where chosen cells have to go for it: only if nothing is wrong afterwards
 };
 
 // Lowers the objective (objective.hpp). The mesh has to conform; nothing is done if a tet, or a cell made of tets, is

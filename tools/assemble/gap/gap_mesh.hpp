@@ -91,6 +91,13 @@ class GapMesh {
   // Faces count in the objective unless the vertices have not found their places yet.
   void ignore_faces() { counts_faces_ = false; }
   bool counts_faces() const { return counts_faces_; }
+  // From now on faces and cells that solvers refuse cost so much that a few more cells are better, and chosen prisms
+  // and pyramids count, too.
+  void be_strict() {
+    is_strict_ = true;
+    face_costs_.clear();
+  }
+  bool is_strict() const { return is_strict_; }
   bool is_tagged(const Triangle& triangle) const { return tags_.contains(triangle); }
   // Rises whenever a cell at v changes, or a vertex of one moves.
   std::uint32_t age_of(Vertex v) const { return age_[v]; }
@@ -140,7 +147,7 @@ class GapMesh {
   IndexedVector<GapIndex, std::int32_t> source_;  // its tet or cell in `mesh`, or no_index for a new one
   std::vector<std::vector<GapIndex>> at_;
   std::vector<std::uint32_t> age_;
-  bool counts_faces_ = true;
+  bool counts_faces_ = true, is_strict_ = false;
   std::vector<std::uint8_t> holds_;
   IndexedVector<KeptIndex, KeptCell> kept_;
   std::size_t first_new_ = 0;  // vertices from here on were added: no chosen cell has them

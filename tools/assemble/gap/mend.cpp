@@ -1,11 +1,9 @@
 // Single vertices have been placed before, each as well as it could: what is left needs other cells, or several
-// vertices together (patch.hpp). Faces have no gradient worth the name, because three cells and a face change with each
-// vertex; so a vertex tries a few steps along the axes and takes the best.
+// vertices together (patch.hpp).
 
 #include "tools/assemble/gap/passes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <vector>
 
@@ -22,9 +20,6 @@ constexpr int most_mending_passes = 3;
 // Few cells are poor; the third round mended 5 and the fourth none on most models.
 constexpr int most_rounds = 3;
 constexpr int rounds_of_moves = 5;
-// Parts of the shortest edge.
-constexpr std::array<double, 3> steps{0.3, 0.12, 0.05};
-constexpr std::array<Vec3, 6> directions{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 
 class Mender {
  public:
@@ -90,28 +85,9 @@ bool Mender::raise_around(GapIndex c) {
 bool Mender::step(Vertex v) {
   stayed_.resize(gap_.vertex_count(), never);
   if (stayed_[v] == gap_.age_of(v)) return false;
-  const std::array<Vertex, 1> moving{v};
-  patch_.take(moving, {});
-  const Vec3 start = gap_.points()[v];
-  const double length = shortest_edge_at(gap_, v);
-  double best = patch_.cost_before() - least_gain;
-  Vec3 place = start;
-  for (const double part : steps) {
-    for (const Vec3& direction : directions) {
-      patch_.place(v, start + direction * (part * length));
-      if (!patch_.keeps_floors()) continue;
-      const double cost = patch_.cost();
-      if (cost < best) best = cost, place = start + direction * (part * length);
-    }
-    if (place != start) break;
-  }
-  if (place == start) {
-    stayed_[v] = gap_.age_of(v);
-    return false;
-  }
-  patch_.place(v, place);
-  patch_.carry_out(gap_, {});
-  return true;
+  if (step_to_lower_cost(gap_, patch_, v)) return true;
+  stayed_[v] = gap_.age_of(v);
+  return false;
 }
 
 bool Mender::mend(GapIndex c) {

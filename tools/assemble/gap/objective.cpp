@@ -55,8 +55,20 @@ double cost_of_face(double orthogonality, double weight) {
   return cost;
 }
 
+double cost_of_refused_weight(double weight) {
+  return weight < low_weight ? price_of_refusal * (2 - weight / low_weight) : 0;
+}
+
+double cost_of_refused_sight(double sight) {
+  return sight > 0 ? 0 : price_of_refusal * (1 + std::min(1.0, -sight));
+}
+
 double cost_of_span(double determinant) {
   return determinant < low_determinant ? price_of_low_determinant * (2 - determinant / low_determinant) : 0;
+}
+
+double cost_of_refused_span(double determinant) {
+  return determinant < low_determinant ? price_of_refusal * (2 - determinant / low_determinant) : 0;
 }
 
 }  // namespace hexpipe::assemble::gap

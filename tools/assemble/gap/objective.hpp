@@ -25,11 +25,21 @@ double quality_of(CellKind kind, std::span<const Vec3> points, std::span<const V
 // these cells and their faces.
 double cost_of(double quality);
 
+// What solvers refuse costs this at least, where that counts (GapMesh::be_strict()): a few more cells are better.
+inline constexpr double price_of_refusal = 10;
+
 // The cost of a face between two cells, from its measures (common/mesh/face_measures.hpp): nothing where it is good,
 // and more where finite volumes suffer from it.
 double cost_of_face(double orthogonality, double weight);
+// What is added to it where solvers would refuse the mesh because of the weight (GapMesh::be_strict()).
+double cost_of_refused_weight(double weight);
+
+// The cost of a quad that solvers refuse because neither diagonal suits the cells on both sides (diagonal_sight()).
+double cost_of_refused_sight(double sight);
 
 // The cost of a cell whose faces to other cells do not span space well, from its determinant.
 double cost_of_span(double determinant);
+// What is added to it where solvers would refuse the mesh because of it.
+double cost_of_refused_span(double determinant);
 
 }  // namespace hexpipe::assemble::gap

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/mesh/cell_topology.hpp"
-#include "common/mesh/facet_key.hpp"
 #include "common/mesh/item_lists.hpp"
+#include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/passes.hpp"
 #include "tools/assemble/gap/patch.hpp"
@@ -23,24 +23,11 @@ namespace {
 
 // One chosen cell in this many may go, and a few in any case, because each costs a share of the volume in hexes.
 constexpr std::size_t chosen_per_opened = 300, opened_in_any_case = 8;
+// The same for cells that solvers refuse.
+constexpr std::size_t chosen_per_refused = 1000;
 // How many chosen cells around a poor one are tried, those with the most vertices of it first. Later ones seldom help.
 constexpr std::size_t most_tries = 8, most_tries_of_two = 4;
 constexpr int rounds_to_raise = 20;
-
-// Whether each edge is one of two facets: only then do two of the cells around a vertex in the room meet at it.
-bool is_ball(std::span<const Facet> skin) {
-  std::vector<VertexKey<2>> edges;
-  for (const Facet& facet : skin) {
-    const auto corners = facet.vertices();
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      edges.push_back(edge_key(corners[i], corners[(i + 1) % corners.size()]));
-  }
-  std::ranges::sort(edges);
-  for (std::size_t i = 0; i < edges.size(); i += 2)
-    if (i + 1 == edges.size() || edges[i] != edges[i + 1] || (i + 2 < edges.size() && edges[i + 2] == edges[i]))
-      return false;
-  return true;
-}
 
 // What filling a room has changed, so that it can be undone as long as nothing follows.
 struct Filled {
@@ -59,14 +46,16 @@ class HexOpener {
 
  private:
   std::vector<KeptIndex> chosen_around(const GapCell& poor, std::size_t most) const;
-  std::optional<std::vector<Facet>> skin_of(KeptIndex kept) const;
-  std::vector<std::vector<GapIndex>> rooms_around(GapIndex poor) const;
   std::vector<std::vector<GapIndex>> rooms_beside(std::span<const Facet> skin, GapIndex poor) const;
   std::vector<Vertex> movable(std::span<const Facet> skin) const;
   std::optional<Filled> fill(std::vector<Facet> skin, std::span<const GapIndex> out, std::int32_t region);
   void undo(const Filled& filled);
   bool are_good_enough(GapIndex first_new) const;
-  bool is_poor(GapIndex c) const { return gap_.is_alive(c) && gap_.cell(c).quality < least_wanted; }
+  bool is_poor(GapIndex c) const {
+    if (gap_.is_strict()) return is_refused(gap_, c);
+    return gap_.is_alive(c) && gap_.cell(c).quality < least_wanted;
+  }
+  std::ptrdiff_t refused_at(std::span<const Vertex> vertices, GapIndex c) const;
   bool fill_without_vertex(Vertex middle, GapIndex poor);
   bool fill_for(GapIndex poor, std::vector<Facet> skin, std::span<const GapIndex> out);
   bool insert(GapIndex poor);
@@ -97,60 +86,6 @@ std::vector<KeptIndex> HexOpener::chosen_around(const GapCell& poor, std::size_t
   std::vector<KeptIndex> result;
   for (const auto& [count, k] : by_count) result.push_back(k);
   return result;
-}
-
-// The facets of a chosen cell, on the boundary as the tagged triangles.
-std::optional<std::vector<Facet>> HexOpener::skin_of(KeptIndex kept) const {
-  const KeptCell& cell = gap_.kept_cell(kept);
-  std::vector<Facet> skin;
-  bool is_whole = true;
-  with_topology(cell.kind, [&](auto topology) {
-    int i = 0;
-    for (const auto& quad : decltype(topology)::quads) {
-      const std::array<Vertex, 4> own{cell.corners[quad[0]], cell.corners[quad[1]], cell.corners[quad[2]],
-                                      cell.corners[quad[3]]};
-      const auto on_boundary = gap_.boundary_triangles(kept, i);
-      if (on_boundary) {
-        for (const Triangle& triangle : *on_boundary) skin.push_back(Facet::of(triangle));
-      } else {
-        skin.push_back(Facet::of(own));
-        is_whole = is_whole && gap_.has_partner(kept, i);
-      }
-      ++i;
-    }
-    for (const auto& triangle : decltype(topology)::triangles)
-      skin.push_back(
-          Facet::of(std::array{cell.corners[triangle[0]], cell.corners[triangle[1]], cell.corners[triangle[2]]}));
-  });
-  if (!is_whole) return std::nullopt;
-  return skin;
-}
-
-// Rooms of gap cells alone: the poor cell with those behind its facets; those around each of its edges; all that share
-// an edge with it.
-std::vector<std::vector<GapIndex>> HexOpener::rooms_around(GapIndex poor) const {
-  const GapCell& cell = gap_.cell(poor);
-  std::vector<GapIndex> behind_facets{poor}, at_edges{poor};
-  std::vector<std::vector<GapIndex>> rooms;
-  for (const Vertex v : cell.vertices())
-    for (const GapIndex c : gap_.cells_at(v)) {
-      if (std::ranges::find(at_edges, c) != at_edges.end()) continue;
-      const auto common = std::ranges::count_if(gap_.cell(c).vertices(), [&](Vertex w) { return cell.has(w); });
-      if (common >= 2) at_edges.push_back(c);
-      if (common >= 3) behind_facets.push_back(c);
-    }
-  rooms.push_back(behind_facets);
-  with_topology(cell.kind, [&](auto topology) {
-    for (const auto& [from, to] : decltype(topology)::edges) {
-      std::vector<GapIndex> around{poor};
-      for (const GapIndex c : at_edges)
-        if (c != poor && gap_.cell(c).has(cell.corners[from]) && gap_.cell(c).has(cell.corners[to]))
-          around.push_back(c);
-      if (around.size() > 1) rooms.push_back(std::move(around));
-    }
-  });
-  rooms.push_back(std::move(at_edges));
-  return rooms;
 }
 
 // Which cells of the gap to fill anew with the chosen one: none; the poor one; those that touch both; all of these.
@@ -185,8 +120,17 @@ std::vector<Vertex> HexOpener::movable(std::span<const Facet> skin) const {
 
 bool HexOpener::are_good_enough(GapIndex first_new) const {
   for (const auto c : indices<GapIndex>(first_new, gap_.cell_count()))
-    if (gap_.cell(c).quality < least_wanted || !is_valid(gap_, gap_.cell(c))) return false;
+    if (gap_.cell(c).quality < least_wanted || is_refused(gap_, c) || !is_valid(gap_, gap_.cell(c))) return false;
   return true;
+}
+
+// How many of c and the cells at these vertices are refused.
+std::ptrdiff_t HexOpener::refused_at(std::span<const Vertex> vertices, GapIndex c) const {
+  if (!gap_.is_strict()) return 0;
+  std::vector<GapIndex> cells{c};
+  for (const Vertex v : vertices) cells.insert(cells.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
+  sort_unique(cells);
+  return std::ranges::count_if(cells, [&](GapIndex other) { return is_refused(gap_, other); });
 }
 
 // Fills the room of the cells at the new vertex, and of the poor one, with cells that do without that vertex.
@@ -247,10 +191,11 @@ void HexOpener::undo(const Filled& filled) {
 
 // Fills the room so that neither the new cells nor `poor` are poor, around a vertex or without; or changes nothing.
 bool HexOpener::fill_for(GapIndex poor, std::vector<Facet> skin, std::span<const GapIndex> out) {
+  const auto refused = refused_at(movable(skin), poor);
   const auto filled = fill(std::move(skin), out, gap_.cell(poor).region);
   if (!filled) return false;
-  if (!is_poor(poor) && are_good_enough(filled->first_new)) return true;
-  if (fill_without_vertex(filled->middle, poor)) {
+  if (!is_poor(poor) && are_good_enough(filled->first_new) && refused_at(filled->moved, poor) <= refused) return true;
+  if (!gap_.is_strict() && fill_without_vertex(filled->middle, poor)) {
     spare_.push_back(filled->middle);
     return true;
   }
@@ -259,14 +204,14 @@ bool HexOpener::fill_for(GapIndex poor, std::vector<Facet> skin, std::span<const
 }
 
 bool HexOpener::insert(GapIndex poor) {
-  for (const auto& out : rooms_around(poor))
+  for (const auto& out : rooms_around(gap_, poor))
     if (fill_for(poor, {}, out)) return true;
   return false;
 }
 
 bool HexOpener::open(KeptIndex kept, GapIndex poor) {
   if (gap_.kept_cell(kept).region != gap_.cell(poor).region) return false;
-  const auto skin = skin_of(kept);
+  const auto skin = skin_of(gap_, kept);
   if (!skin) return false;
   gap_.set_alive(kept, false);
   for (const auto& out : rooms_beside(*skin, poor))
@@ -286,7 +231,7 @@ std::vector<KeptIndex> HexOpener::open_one(GapIndex poor) {
 std::vector<KeptIndex> HexOpener::open_two(GapIndex poor) {
   const std::int32_t region = gap_.cell(poor).region;
   for (const KeptIndex first : chosen_around(gap_.cell(poor), most_tries_of_two)) {
-    const auto skin = skin_of(first);
+    const auto skin = skin_of(gap_, first);
     if (!skin || gap_.kept_cell(first).region != region) continue;
     gap_.set_alive(first, false);
     if (const auto filled = fill(*skin, {}, region)) {
@@ -309,9 +254,11 @@ std::vector<KeptIndex> HexOpener::open_for(GapIndex poor) {
 
 Opened HexOpener::run() {
   Opened result;
-  const std::size_t most = gap_.kept_count() / chosen_per_opened + opened_in_any_case;
+  const std::size_t most = gap_.is_strict() ? gap_.kept_count() / chosen_per_refused
+                                            : gap_.kept_count() / chosen_per_opened + opened_in_any_case;
   for (const auto c : indices<GapIndex>(gap_.cell_count())) {
     if (!is_poor(c)) continue;
+    if (gap_.is_strict() && static_cast<std::size_t>(result.inserted) + result.chosen.size() >= most) break;
     if (insert(c)) {
       ++result.inserted;
       continue;

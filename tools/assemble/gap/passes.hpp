@@ -64,4 +64,19 @@ struct MendCounts {
 // again while it changes something.
 MendCounts mend(GapMesh& gap, bool may_open);
 
+// What checkMesh counts as wrong: cells of low determinant, faces of low weight, and quads neither of whose diagonals
+// suits both cells (common/mesh/face_measures.hpp). `gap` has to be strict. The number of cells of the gap, and of
+// chosen prisms and pyramids, that are so or have such a face.
+std::int64_t count_refused(const GapMesh& gap);
+// Whether a chosen hex is so, as most are in a single layer; chosen cells have to be as in the mesh that `gap` was made
+// of.
+bool has_refused_hex(const GapMesh& gap);
+
+// Mends what is counted: vertices move, rooms are filled anew, or a new vertex comes, one for 300 chosen cells at most.
+// Hexes lose 0.02 % of their volume at most. No cell of the gap falls below least_quality that was not below before.
+MendCounts mend_refused(GapMesh& gap);
+// The same down to least_wanted. Chosen cells may go, too: prisms and pyramids that are counted, and hexes, one of
+// 1,000.
+MendCounts open_for_refused(GapMesh& gap);
+
 }  // namespace hexpipe::assemble::gap

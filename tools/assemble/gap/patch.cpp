@@ -1,6 +1,9 @@
 #include "tools/assemble/gap/patch.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 #include "common/mesh/face_view.hpp"
 #include "common/mesh/item_lists.hpp"
@@ -19,6 +22,9 @@ constexpr double hex_weight = 0.5;
 constexpr int steps_to_make_room = 6;
 // A move after which a cell is not valid is halved this often.
 constexpr int retreats = 2;
+// Of lower_cost(), in parts of the shortest edge.
+constexpr std::array<double, 3> steps{0.3, 0.12, 0.05};
+constexpr std::array<Vec3, 6> directions{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 
 }  // namespace
 
@@ -32,22 +38,21 @@ void Patch::add(Cell cell, std::span<const Vertex> corners) {
 }
 
 void Patch::take(std::span<const Vertex> moving, const Replacement& replacement) {
-  vertices_.clear(), cells_.clear(), moving_.clear();
-  std::vector<KeptIndex> kept;
+  vertices_.clear(), cells_.clear(), moving_.clear(), kept_.clear();
   before_.assign(replacement.out.begin(), replacement.out.end());
   for (const Vertex v : moving) {
     before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
-    for (const KeptIndex c : gap_.kept_at(v)) kept.push_back(c);
+    for (const KeptIndex c : gap_.kept_at(v)) kept_.push_back(c);
   }
   sort_unique(before_);
-  sort_unique(kept);
+  sort_unique(kept_);
   for (const GapIndex c : before_)
     if (std::ranges::find(replacement.out, c) == replacement.out.end())
       add({gap_.cell(c).kind, false, gap_.cell(c).region, std::min(gap_.cell(c).quality, floor_), {}},
           gap_.cell(c).vertices());
   for (const GapCell& cell : replacement.in)
     add({cell.kind, false, cell.region, replacement.floor, {}}, cell.vertices());
-  for (const KeptIndex c : kept) {
+  for (const KeptIndex c : kept_) {
     const KeptCell& cell = gap_.kept_cell(c);
     const double floor = cell.kind == CellKind::hex ? least_hex : least_prism;
     add({cell.kind, true, 0, std::min(floor, quality_of(cell.kind, gap_.points(), cell.vertices())), {}},
@@ -125,6 +130,14 @@ void Patch::raise(double goal, int rounds) {
   }
 }
 
+double Patch::hex_volume() const {
+  double volume = 0;
+  for (const Cell& cell : cells_)
+    if (cell.is_kept && cell.kind == CellKind::hex)
+      volume += cell_volume(cell.kind, corner_points(points_, cell.vertices()));
+  return volume;
+}
+
 double Patch::least() const {
   double least = 1;
   for (const Cell& cell : cells_)
@@ -141,28 +154,105 @@ bool Patch::keeps_floors() const {
 double Patch::cost_before() const {
   double cost = cost_of_faces(gap_, before_);
   for (const GapIndex c : before_) cost += cost_of(gap_.cell(c).quality);
+  for (const KeptIndex c : kept_) cost += cost_of_kept_span(gap_, c);
   return cost;
+}
+
+FacesOf Patch::faces_of(const Cell& cell) const {
+  FacesOf faces{cell.kind, {}, {}, cell.is_kept, {}};
+  for (std::size_t i = 0; i < cell.vertices().size(); ++i) {
+    faces.corners[i] = vertices_[cell.corners[i]];
+    faces.points[i] = points_[cell.corners[i]];
+  }
+  return faces;
+}
+
+std::vector<FacesOf> Patch::faces_of_all() const {
+  std::vector<FacesOf> cells;
+  cells.reserve(cells_.size());
+  for (const Cell& cell : cells_) cells.push_back(faces_of(cell));
+  return cells;
 }
 
 double Patch::cost() const {
   double sum = 0;
-  std::vector<FacesOf> cells;
-  cells.reserve(cells_.size());
-  for (const Cell& cell : cells_) {
+  for (const Cell& cell : cells_)
     if (!cell.is_kept) sum += cost_of(quality(cell));
-    FacesOf faces{cell.kind, {}, {}, cell.is_kept, {}};
-    for (std::size_t i = 0; i < cell.vertices().size(); ++i) {
-      faces.corners[i] = vertices_[cell.corners[i]];
-      faces.points[i] = points_[cell.corners[i]];
-    }
-    cells.push_back(faces);
-  }
-  return sum + cost_of_faces(gap_, cells, before_);
+  return sum + cost_of_faces(gap_, faces_of_all(), before_);
 }
 
 void Patch::carry_out(GapMesh& gap, const Replacement& replacement) const {
   gap.replace(replacement.out, replacement.in);
   for (const Local v : moving_) gap.relocate(vertices_[v], points_[v]);
+}
+
+double Patch::shortest_edge_at(std::size_t i) const {
+  const Vec3 own = points_[moving_[i]];
+  double shortest = std::numeric_limits<double>::infinity();
+  const auto look = [&](bool at_kept) {
+    for (const std::size_t c : at_[i]) {
+      if (cells_[c].is_kept != at_kept) continue;
+      for (const Local w : cells_[c].vertices())
+        if (w != moving_[i]) shortest = std::min(shortest, norm(points_[w] - own));
+    }
+  };
+  look(false);
+  if (std::isinf(shortest)) look(true);
+  return shortest;
+}
+
+// What the cells at a vertex cost, with their faces.
+double Patch::cost_at(std::size_t i, const FaceGraph& graph, std::vector<FacesOf>& faces) const {
+  double sum = 0;
+  for (const std::size_t c : at_[i]) {
+    faces[c] = faces_of(cells_[c]);
+    if (!cells_[c].is_kept) sum += cost_of(quality(cells_[c]));
+  }
+  return gap_.counts_faces() ? sum + graph.cost_at(faces, at_[i]) : sum;
+}
+
+bool Patch::keeps_floors_at(std::size_t i) const {
+  return std::ranges::all_of(at_[i], [&](std::size_t c) { return quality(cells_[c]) >= cells_[c].floor; }) &&
+         std::ranges::all_of(at_[i], [&](std::size_t c) { return is_good(cells_[c]); });
+}
+
+double Patch::step(std::size_t i, const FaceGraph& graph, std::vector<FacesOf>& faces) {
+  Vec3& point = points_[moving_[i]];
+  const Vec3 start = point;
+  const double length = shortest_edge_at(i), before = cost_at(i, graph, faces);
+  double best = before - least_gain;
+  Vec3 place = start;
+  for (const double part : steps) {
+    for (const Vec3& direction : directions) {
+      point = start + direction * (part * length);
+      if (!keeps_floors_at(i)) continue;
+      if (const double now = cost_at(i, graph, faces); now < best) best = now, place = point;
+    }
+    if (place != start) break;
+  }
+  point = place;
+  for (const std::size_t c : at_[i]) faces[c] = faces_of(cells_[c]);
+  return place == start ? 0 : before - best;
+}
+
+double Patch::lower_cost(int rounds, std::size_t most) {
+  std::vector<FacesOf> faces = faces_of_all();
+  const FaceGraph graph(gap_, faces, before_);
+  double gain = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const double before = gain;
+    for (std::size_t i = 0; i < std::min(most, moving_.size()); ++i) gain += step(i, graph, faces);
+    if (gain == before) break;
+  }
+  return gain;
+}
+
+bool step_to_lower_cost(GapMesh& gap, Patch& patch, Vertex v) {
+  const std::array<Vertex, 1> moving{v};
+  patch.take(moving, {});
+  if (patch.lower_cost(1, 1) == 0) return false;
+  patch.carry_out(gap, {});
+  return true;
 }
 
 }  // namespace hexpipe::assemble::gap

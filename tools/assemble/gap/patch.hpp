@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/gap_mesh.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/shape/point_star.hpp"
@@ -37,6 +38,13 @@ class Patch {
   // good as they have to be (least_hex), or as they were.
   void raise(double goal, int rounds);
 
+  // Moves each of the first `most` vertices in turn by the one of a few steps along the axes after which the cost is
+  // least. The floors, which have to hold before, hold. Faces have no gradient worth the name, because three cells and
+  // a face change with each vertex. Ends after `rounds` rounds, or when nothing moves. Returns how much the cost falls.
+  double lower_cost(int rounds, std::size_t most);
+
+  // The volume of the chosen hexes at the moving vertices.
+  double hex_volume() const;
   // The least quality among the cells that are not chosen.
   double least() const;
   // False if a cell is not valid, or worse than its floor: that of the patch (a chosen hex: least_hex), or less if it
@@ -71,6 +79,12 @@ class Patch {
   bool is_good(const Cell& cell) const;
   void look_around(std::size_t i);
   bool improve(std::size_t i, double goal);
+  double shortest_edge_at(std::size_t i) const;
+  FacesOf faces_of(const Cell& cell) const;
+  std::vector<FacesOf> faces_of_all() const;
+  double cost_at(std::size_t i, const FaceGraph& graph, std::vector<FacesOf>& faces) const;
+  bool keeps_floors_at(std::size_t i) const;
+  double step(std::size_t i, const FaceGraph& graph, std::vector<FacesOf>& faces);
 
   const GapMesh& gap_;
   double floor_;
@@ -78,9 +92,13 @@ class Patch {
   std::vector<Vec3> points_;
   std::vector<Cell> cells_;
   std::vector<GapIndex> before_;  // cells of the gap at the moving vertices, before the change
+  std::vector<KeptIndex> kept_;   // chosen cells at the moving vertices
   std::vector<Local> moving_;
   std::vector<std::vector<std::size_t>> at_;  // by place in moving_: those of `cells_`
   shape::PointStar star_;
 };
+
+// Moves one vertex as Patch::lower_cost() does. False if no step lowers the cost.
+bool step_to_lower_cost(GapMesh& gap, Patch& patch, Vertex v);
 
 }  // namespace hexpipe::assemble::gap

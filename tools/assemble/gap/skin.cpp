@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/mesh/facet_key.hpp"
 #include "common/mesh/item_lists.hpp"
 #include "tools/assemble/gap/objective.hpp"
 
@@ -58,6 +59,71 @@ std::optional<Room> room_of(const GapMesh& gap, std::span<const GapIndex> cells,
     for (const Vertex v : gap.cell(c).vertices())
       if (!std::ranges::binary_search(room.vertices, v) && !gap.is_free(v)) return std::nullopt;
   return room;
+}
+
+std::optional<std::vector<Facet>> skin_of(const GapMesh& gap, KeptIndex kept) {
+  const KeptCell& cell = gap.kept_cell(kept);
+  std::vector<Facet> skin;
+  bool is_whole = true;
+  with_topology(cell.kind, [&](auto topology) {
+    int i = 0;
+    for (const auto& quad : decltype(topology)::quads) {
+      const std::array<Vertex, 4> own{cell.corners[quad[0]], cell.corners[quad[1]], cell.corners[quad[2]],
+                                      cell.corners[quad[3]]};
+      const auto on_boundary = gap.boundary_triangles(kept, i);
+      if (on_boundary) {
+        for (const Triangle& triangle : *on_boundary) skin.push_back(Facet::of(triangle));
+      } else {
+        skin.push_back(Facet::of(own));
+        is_whole = is_whole && gap.has_partner(kept, i);
+      }
+      ++i;
+    }
+    for (const auto& triangle : decltype(topology)::triangles)
+      skin.push_back(
+          Facet::of(std::array{cell.corners[triangle[0]], cell.corners[triangle[1]], cell.corners[triangle[2]]}));
+  });
+  if (!is_whole) return std::nullopt;
+  return skin;
+}
+
+bool is_ball(std::span<const Facet> skin) {
+  std::vector<VertexKey<2>> edges;
+  for (const Facet& facet : skin) {
+    const auto corners = facet.vertices();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      edges.push_back(edge_key(corners[i], corners[(i + 1) % corners.size()]));
+  }
+  std::ranges::sort(edges);
+  for (std::size_t i = 0; i < edges.size(); i += 2)
+    if (i + 1 == edges.size() || edges[i] != edges[i + 1] || (i + 2 < edges.size() && edges[i + 2] == edges[i]))
+      return false;
+  return true;
+}
+
+std::vector<std::vector<GapIndex>> rooms_around(const GapMesh& gap, GapIndex c) {
+  const GapCell& cell = gap.cell(c);
+  std::vector<GapIndex> behind_facets{c}, at_edges{c};
+  std::vector<std::vector<GapIndex>> rooms;
+  for (const Vertex v : cell.vertices())
+    for (const GapIndex other : gap.cells_at(v)) {
+      if (std::ranges::find(at_edges, other) != at_edges.end()) continue;
+      const auto common = std::ranges::count_if(gap.cell(other).vertices(), [&](Vertex w) { return cell.has(w); });
+      if (common >= 2) at_edges.push_back(other);
+      if (common >= 3) behind_facets.push_back(other);
+    }
+  rooms.push_back(behind_facets);
+  with_topology(cell.kind, [&](auto topology) {
+    for (const auto& [from, to] : decltype(topology)::edges) {
+      std::vector<GapIndex> around{c};
+      for (const GapIndex other : at_edges)
+        if (other != c && gap.cell(other).has(cell.corners[from % 6]) && gap.cell(other).has(cell.corners[to % 6]))
+          around.push_back(other);
+      if (around.size() > 1) rooms.push_back(std::move(around));
+    }
+  });
+  rooms.push_back(std::move(at_edges));
+  return rooms;
 }
 
 GapCell cell_on(const GapMesh& gap, const Facet& facet, Vertex apex, std::int32_t region) {

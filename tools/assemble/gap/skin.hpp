@@ -59,6 +59,16 @@ Joining join_skin(const GapMesh& gap, const GapCell& cell, std::vector<Facet>& s
 // between them, or if more than `most_facets` are around them.
 std::optional<Room> room_of(const GapMesh& gap, std::span<const GapIndex> cells, std::size_t most_facets);
 
+// The facets of a chosen cell, on the boundary as the tagged triangles. Nothing if a quad has nothing behind it.
+std::optional<std::vector<Facet>> skin_of(const GapMesh& gap, KeptIndex kept);
+
+// Whether each edge is one of two facets: only then do two of the cells around a vertex in the room meet at it.
+bool is_ball(std::span<const Facet> skin);
+
+// Rooms of gap cells around c: with the cells behind its facets; with those around each of its edges; with all that
+// share an edge with it.
+std::vector<std::vector<GapIndex>> rooms_around(const GapMesh& gap, GapIndex c);
+
 // The cell on the inner side of a facet of the skin, with its last corner at `apex`: a tet or a pyramid.
 GapCell cell_on(const GapMesh& gap, const Facet& facet, Vertex apex, std::int32_t region);
 
