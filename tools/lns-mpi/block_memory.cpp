@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace hexpipe::lns_mpi {
-namespace {
-
-// The choice of other blocks beyond the edge changes the fragments around it.
-bool is_near_edge(const Region& region, std::int32_t v) {
-  return region.at_edge[v] != 0 ||
-         std::ranges::any_of(region.graph.neighbours_of(v), [&](std::int32_t u) { return region.at_edge[u] != 0; });
-}
-
-}  // namespace
 
 mwis::local_search::LnsMemory BlockMemory::recall(const Region& region, std::span<const std::uint64_t> keys) const {
   mwis::local_search::LnsMemory memory;
@@ -30,9 +21,15 @@ void BlockMemory::remember(const mwis::local_search::LnsMemory& memory, const Re
   operator_scores_ = memory.operator_scores;
   places_.clear();
   places_.reserve(memory.places.size());
-  for (const mwis::local_search::LnsMemory::Place& place : memory.places) {
-    Place& known = places_.emplace_back(Place{keys[region.vertices[place.vertex]], place.tries, place.size});
-    if (is_near_edge(region, place.vertex)) known.tries.fill(0);
+  for (const mwis::local_search::LnsMemory::Place& place : memory.places)
+    places_.push_back({keys[region.vertices[place.vertex]], place.tries, place.size});
+}
+
+void BlockMemory::forget_tries(std::span<const std::uint64_t> keys) {
+  auto known = places_.begin();
+  for (const std::uint64_t key : keys) {
+    while (known != places_.end() && known->key < key) ++known;
+    if (known != places_.end() && known->key == key) known->tries.fill(0);
   }
 }
 

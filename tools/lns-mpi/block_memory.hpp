@@ -27,9 +27,9 @@ class BlockMemory {
 
   // The knowledge about this region, in its numbers; `keys` are those of the rank's local graph.
   mwis::local_search::LnsMemory recall(const Region& region, std::span<const std::uint64_t> keys) const;
-  // Keeps only the size of places at the edge of the region, because what lies beyond may change before the next round.
-  // Everything further inside stays as this search leaves it, because no other block may change it meanwhile.
   void remember(const mwis::local_search::LnsMemory& memory, const Region& region, std::span<const std::uint64_t> keys);
+  // Places of these keys, ascending, count as never tried; the size of their fragments stays.
+  void forget_tries(std::span<const std::uint64_t> keys);
 
   // The size that fragments have reached; 0: nothing is known.
   std::size_t usual_size() const;

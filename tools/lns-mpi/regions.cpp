@@ -49,12 +49,8 @@ Region Regions::extract(std::int32_t block) {
     const std::int32_t v = region.vertices[i];
     if (local_.chosen[v] != 0) region.chosen.push_back(static_cast<std::int32_t>(i));
     region.graph.weights.push_back(local_.graph.weights[v]);
-    region.at_edge.push_back(0);
     for (const std::int32_t u : local_.graph.neighbours_of(v))
-      if (number_[u] != no_index)
-        region.graph.neighbours.push_back(number_[u]);
-      else if (local_.decided[u] == 0)
-        region.at_edge.back() = 1;
+      if (number_[u] != no_index) region.graph.neighbours.push_back(number_[u]);
     region.graph.offsets.push_back(static_cast<std::int64_t>(region.graph.neighbours.size()));
   }
   for (const std::int32_t v : region.vertices) number_[v] = no_index;

@@ -16,7 +16,6 @@ struct Region {
   std::vector<std::int32_t> vertices;  // of the local graph, ascending
   graph::ConflictGraph graph;          // of these, numbered in this order
   graph::IndependentSet chosen;
-  std::vector<char> at_edge;  // has a neighbour that another region may change, in this round or in another one
 };
 
 class Regions {
