@@ -93,17 +93,20 @@ TEST(Numbering, TakesMeshesWithoutExtent) {
   EXPECT_EQ(mesh.points, (std::vector<Vec3>{{1, 2, 3}, {1, 2, 3}}));
 }
 
-TEST(Numbering, IsForMeshesWhoseOrderNobodyWasPromised) {
+TEST(Numbering, IsForLargeMeshesWhoseOrderNobodyWasPromised) {
   const formats::SurfaceSoup soup = testing::soup_of(testing::cube(0, 1, 4));
-  const auto mesh_of = [&](SurfaceKind surface) {
-    return tetmesh(soup, {.sizes = {.size = sizing::Length{0.25, false}}, .surface = surface}).mesh;
+  const auto mesh_of = [&](SurfaceKind surface, double size) {
+    return tetmesh(soup, {.sizes = {.size = sizing::Length{size, false}}, .surface = surface}).mesh;
   };
   const auto ascends = [](const TetMesh& mesh) {
     return std::ranges::is_sorted(mesh.tets, {}, [](const Tet& tet) { return std::ranges::min(tet); });
   };
-  const TetMesh anew = mesh_of(SurfaceKind::remesh), kept = mesh_of(SurfaceKind::keep);
+  const TetMesh anew = mesh_of(SurfaceKind::remesh, 0.045), kept = mesh_of(SurfaceKind::keep, 0.045),
+                small = mesh_of(SurfaceKind::remesh, 0.25);
+  EXPECT_GT(anew.points.size(), 10000u);
   EXPECT_TRUE(ascends(anew));
   EXPECT_FALSE(ascends(kept));
+  EXPECT_FALSE(ascends(small));
   EXPECT_TRUE(std::ranges::equal(soup.points, std::span(kept.points).first(soup.points.size())));
 }
 

@@ -67,9 +67,12 @@ MeshedSurface best_of_tries(const solid::Surface& surface, const sizing::SizeDem
   return *std::move(best);
 }
 
-// Whether the user's own points are promised to stay in their order.
-bool keeps_order(const TetmeshOptions& options) {
-  return options.surface == SurfaceKind::keep || options.points == PointKind::given;
+// Whether the vertices stay in TetGen's order: because the user's own points are promised to keep theirs, or because
+// the mesh is so small that later stages hold it in the processor's caches anyway.
+bool keeps_order(const TetMesh& mesh, const TetmeshOptions& options) {
+  constexpr std::size_t most_of_a_small_mesh = 10000;
+  return options.surface == SurfaceKind::keep || options.points == PointKind::given ||
+         mesh.points.size() <= most_of_a_small_mesh;
 }
 
 // Describes the mesh, and moves it to where it is wanted.
@@ -90,7 +93,7 @@ TetmeshResult finish(MeshedSurface meshed, const solid::Surface& given, const Te
   s.volume = shape.volume;
   s.least_dihedral = shape.least_dihedral;
   s.greatest_dihedral = shape.greatest_dihedral;
-  if (!keeps_order(options)) tetgen::number_along_curve(meshed.built.mesh, s.added_points);
+  if (!keeps_order(built.mesh, options)) tetgen::number_along_curve(meshed.built.mesh, s.added_points);
   s.seconds.building += watch.seconds();
   return {std::move(meshed.built.mesh), given.names, std::move(s), std::move(meshed.warnings),
           std::move(meshed.dislocations)};
