@@ -508,6 +508,10 @@ void Stage::expect_second_order(bool full) const {
   if (!writes_bundle()) formats::expect_second_order(state_->context.streams.mesh, state_->format, full);
 }
 
+std::string_view Stage::format() const {
+  return state_->format;
+}
+
 bool Stage::writes_bundle() const {
   return is_bundle_format(state_->format);
 }

@@ -52,6 +52,9 @@ class Stage {
   // quads and hexes.
   void expect_second_order(bool full) const;
 
+  // The name of the format that the product is written in.
+  std::string_view format() const;
+
   // Whether the product goes into a bundle, where others may stand beside it.
   bool writes_bundle() const;
 

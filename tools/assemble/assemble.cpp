@@ -274,9 +274,11 @@ void check_orientation(const TetMesh& mesh, const choice::InputNames& names) {
 
 BuildRules build_rules(const AssembleOptions& options) {
   const bool is_conforming = options.conformity == AssembleOptions::Conformity::pyramids;
+  const bool merges = is_conforming && options.smooth > 0 && options.merge == AssembleOptions::Merge::vertices;
   return {.is_conforming = is_conforming,
           .smooth_rounds = options.smooth,
-          .merges = is_conforming && options.smooth > 0 && options.merge == AssembleOptions::Merge::vertices};
+          .merges = merges,
+          .mends_refused = merges && options.mend == AssembleOptions::Mend::finite_volumes};
 }
 
 AssembleResult assemble(TetMesh mesh, const Candidates& candidates, const graph::IndependentSet& solution,

@@ -208,9 +208,10 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
   step.reset();
   step.emplace("mending poor cells", mending_ends, 1);
   if (!rules_.merges) return;
-  bool mended = false;
-  for (const gap::Passes passes : {gap::Passes::mend, gap::Passes::mend_refused, gap::Passes::open_for_refused})
-    mended = make_fewer_cells(attempt, passes).any() || mended;
+  bool mended = make_fewer_cells(attempt, gap::Passes::mend).any();
+  if (rules_.mends_refused)
+    for (const gap::Passes passes : {gap::Passes::mend_refused, gap::Passes::open_for_refused})
+      mended = make_fewer_cells(attempt, passes).any() || mended;
   if (mended) extracted = hybrid::extract(attempt.mesh, attempt.tags);
 }
 

@@ -36,7 +36,8 @@ struct AssembleInput {
 struct BuildRules {
   bool is_conforming = true;
   int smooth_rounds = 0;
-  bool merges = false;  // makes the cells between the hexes fewer; only with is_conforming and smooth_rounds
+  bool merges = false;         // makes the cells between the hexes fewer; only with is_conforming and smooth_rounds
+  bool mends_refused = false;  // and then mends what checkMesh counts as wrong; only with merges
   const hybrid::Seam* seam = nullptr;  // of a piece
 
   // By vertex of the input, as in Seam; empty without a seam.

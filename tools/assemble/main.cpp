@@ -13,6 +13,7 @@
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
+#include "formats/meshes/mesh_files.hpp"
 #include "formats/pipeline/quads_of_choice.hpp"
 #include "formats/pipeline/stage.hpp"
 #include "formats/pipeline/surface_file.hpp"
@@ -34,9 +35,11 @@ const std::map<std::string, AssembleOptions::Fill> fills{{"prisms", AssembleOpti
                                                          {"none", AssembleOptions::Fill::none}};
 const std::map<std::string, AssembleOptions::Merge> merges{{"vertices", AssembleOptions::Merge::vertices},
                                                            {"none", AssembleOptions::Merge::none}};
+const std::map<std::string, AssembleOptions::Mend> mends{{"quality", AssembleOptions::Mend::quality},
+                                                         {"finite-volumes", AssembleOptions::Mend::finite_volumes}};
 
 struct CommandLine {
-  std::string conformity = "pyramids", exchange = "quads", fill = "prisms", merge = "vertices";
+  std::string conformity = "pyramids", exchange = "quads", fill = "prisms", merge = "vertices", mend;
   const CLI::Option *exchange_option = nullptr, *fill_option = nullptr, *merge_option = nullptr;
   int smooth = AssembleOptions{}.smooth;
   std::string walls;
@@ -72,12 +75,18 @@ void declare_options(CLI::App& app, CommandLine& line) {
           ->check(CLI::IsMember(fills))
           ->capture_default_str();
   line.merge_option =
-      app.add_option("--merge", line.merge,
-                     "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
-                     "this leaves fewer or better cells; none: keeps them. none always holds with --conformity none and "
-                     "with --smooth 0")
+      app.add_option(
+             "--merge", line.merge,
+             "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
+             "this leaves fewer or better cells; none: keeps them. none always holds with --conformity none and "
+             "with --smooth 0")
           ->check(CLI::IsMember(merges))
           ->capture_default_str();
+  app.add_option("--mend", line.mend,
+                 "quality: the worst cells between the hexes become better at the end; finite-volumes: then what "
+                 "OpenFOAM's checkMesh counts as wrong is mended, too, for a few more cells. Goes with --merge "
+                 "vertices [finite-volumes with --solver openfoam or for a polyMesh, otherwise quality]")
+      ->check(CLI::IsMember(mends));
   app.add_option("--smooth", line.smooth,
                  "Rounds of moving vertices and flipping tets to make the worst cells better and hexes larger; 0: none")
       ->group(group::first)
@@ -141,7 +150,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
 }
 
 // Checks that involve several options.
-AssembleOptions options_of(CommandLine& line) {
+AssembleOptions options_of(CommandLine& line, bool for_openfoam) {
   const bool may_change_cells = !line.by_part() && line.conformity == "pyramids";
   if (!may_change_cells && line.exchange_option->count() > 0 && line.exchange == "quads")
     throw UsageError("--exchange quads goes with --conformity pyramids, without --neighbours");
@@ -152,6 +161,10 @@ AssembleOptions options_of(CommandLine& line) {
   if (!may_merge && line.merge_option->count() > 0 && line.merge == "vertices")
     throw UsageError("--merge vertices goes with --conformity pyramids, and with --smooth of 1 or more");
   if (!may_merge) line.merge = "none";
+  const bool has_merges = line.merge == "vertices";
+  if (line.mend.empty()) line.mend = for_openfoam && has_merges ? "finite-volumes" : "quality";
+  if (!has_merges && line.mend == "finite-volumes")
+    throw UsageError("--mend finite-volumes goes with --merge vertices");
   if (line.by_part() && line.conformity == "none")
     throw UsageError("--conformity none does not go with --neighbours: pieces fit because they conform");
   if (line.by_part() && !line.require.empty())
@@ -166,6 +179,7 @@ AssembleOptions options_of(CommandLine& line) {
           .exchange = exchanges.at(line.exchange),
           .fill = fills.at(line.fill),
           .merge = merges.at(line.merge),
+          .mend = mends.at(line.mend),
           .smooth = line.smooth};
 }
 
@@ -298,14 +312,20 @@ nlohmann::ordered_json report_second_order(RunContext& context, const order::Sec
   return context.statistics["second_order"] = order::to_json(counts);
 }
 
+bool is_for_openfoam(const RunContext& context, const pipeline::Stage& stage) {
+  return context.streams.mesh.solver == "openfoam" || stage.format() == formats::poly_mesh_format;
+}
+
 void run(RunContext& context, CommandLine& line) {
-  AssembleOptions options = options_of(line);
+  pipeline::Stage stage(context);
+  AssembleOptions options = options_of(line, is_for_openfoam(context, stage));
   LayerOptions layers = layer_options_of(line);
   const auto requirements = line.require.empty() ? std::vector<Requirement>{} : parse_requirements(line.require);
   context.options["conformity"] = line.conformity;
   context.options["exchange"] = line.exchange;
   context.options["fill"] = line.fill;
   context.options["merge"] = line.merge;
+  context.options["mend"] = line.mend;
   context.options["smooth"] = line.smooth;
   if (line.order == 2) context.options["order"] = line.order, context.options["nodes"] = line.nodes;
   if (!line.walls.empty()) {
@@ -314,7 +334,6 @@ void run(RunContext& context, CommandLine& line) {
     context.options["growth"] = line.growth;
   }
   if (line.pillow) context.options["pillow"] = true;
-  pipeline::Stage stage(context);
   if (line.order == 2) stage.expect_second_order(line.nodes == "full");
   std::optional<formats::SurfaceSoup> surface;
   if (!line.surface.empty()) surface = pipeline::read_surface_file(line.surface);

@@ -21,6 +21,10 @@ struct AssembleOptions {
   // Only if the result conforms and is smoothed.
   enum class Merge { vertices, none };
   Merge merge = Merge::vertices;
+  // finite_volumes: after the poor cells, what OpenFOAM's checkMesh counts as wrong is mended too, for a few more cells
+  // (gap/mend_refused.cpp). Only with Merge::vertices.
+  enum class Mend { quality, finite_volumes };
+  Mend mend = Mend::quality;
   int smooth = 5;  // rounds over all vertices
 };
 
