@@ -75,11 +75,10 @@ void declare_options(CLI::App& app, CommandLine& line) {
           ->check(CLI::IsMember(fills))
           ->capture_default_str();
   line.merge_option =
-      app.add_option(
-             "--merge", line.merge,
-             "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
-             "this leaves fewer or better cells; none: keeps them. none always holds with --conformity none and "
-             "with --smooth 0")
+      app.add_option("--merge", line.merge,
+                     "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
+                     "this leaves fewer or better cells; none: keeps them. none always holds with --conformity none and "
+                     "with --smooth 0")
           ->check(CLI::IsMember(merges))
           ->capture_default_str();
   app.add_option("--mend", line.mend,

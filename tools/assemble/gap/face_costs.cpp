@@ -180,12 +180,19 @@ FaceGraph::FaceGraph(const GapMesh& gap, std::span<const FacesOf> cells, std::sp
   }
 }
 
-double FaceGraph::cost(std::span<const FacesOf> cells) const {
+template <class Counts>
+double FaceGraph::cost_of_faces_that(std::span<const FacesOf> cells, Counts&& counts) const {
   double cost = 0;
   Centres centres(cells);
   for (const Face& face : faces_)
-    cost += cost_between(*gap_, cells[face.cell], face.face, centres.of(face.cell),
-                         face.other == none ? face.beyond : centres.of(face.other));
+    if (counts(face))
+      cost += cost_between(*gap_, cells[face.cell], face.face, centres.of(face.cell),
+                           face.other == none ? face.beyond : centres.of(face.other));
+  return cost;
+}
+
+double FaceGraph::cost(std::span<const FacesOf> cells) const {
+  double cost = cost_of_faces_that(cells, [](const Face&) { return true; });
   for (std::size_t c = 0; c < cells.size(); ++c)
     if (has_span_cost(*gap_, cells[c].kind, cells[c].is_kept)) cost += span_cost(*gap_, cells[c], inner_[c]);
   return cost;
@@ -193,12 +200,7 @@ double FaceGraph::cost(std::span<const FacesOf> cells) const {
 
 double FaceGraph::cost_at(std::span<const FacesOf> cells, std::span<const std::size_t> changing) const {
   const auto changes = [&](std::size_t c) { return c != none && std::ranges::binary_search(changing, c); };
-  double cost = 0;
-  Centres centres(cells);
-  for (const Face& face : faces_)
-    if (changes(face.cell) || changes(face.other))
-      cost += cost_between(*gap_, cells[face.cell], face.face, centres.of(face.cell),
-                           face.other == none ? face.beyond : centres.of(face.other));
+  double cost = cost_of_faces_that(cells, [&](const Face& face) { return changes(face.cell) || changes(face.other); });
   for (const std::size_t c : changing)
     if (has_span_cost(*gap_, cells[c].kind, cells[c].is_kept)) cost += span_cost(*gap_, cells[c], inner_[c]);
   return cost;

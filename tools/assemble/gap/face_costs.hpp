@@ -43,6 +43,9 @@ class FaceGraph {
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
+  template <class Counts>
+  double cost_of_faces_that(std::span<const FacesOf> cells, Counts&& counts) const;
+
   const GapMesh* gap_;
   std::vector<Face> faces_;                         // those that cost something
   std::vector<std::array<std::uint8_t, 6>> inner_;  // by cell and face

@@ -1,9 +1,11 @@
 #include "tools/assemble/gap/gap_mesh.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "common/mesh/face_measures.hpp"
 #include "common/mesh/face_view.hpp"
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "tools/assemble/gap/objective.hpp"
@@ -189,6 +191,21 @@ void GapMesh::relocate(Vertex v, const Vec3& to) {
     cells_[c].quality = quality_of(cells_[c].kind, mesh_.points, cells_[c].vertices());
     for (const Vertex w : cells_[c].vertices()) ++age_[w];
   }
+}
+
+std::vector<Vertex> GapMesh::inner_vertices_of(GapIndex c) const {
+  std::vector<Vertex> inner;
+  std::ranges::copy_if(cells_[c].vertices(), std::back_inserter(inner), [&](Vertex v) { return is_inside(v); });
+  return inner;
+}
+
+std::vector<Vertex> GapMesh::inner_vertices_around(GapIndex c) const {
+  std::vector<Vertex> inner;
+  for (const Vertex v : cells_[c].vertices())
+    for (const GapIndex other : at_[v])
+      std::ranges::copy_if(cells_[other].vertices(), std::back_inserter(inner), [&](Vertex w) { return is_inside(w); });
+  sort_unique(inner);
+  return inner;
 }
 
 void GapMesh::write_back() {

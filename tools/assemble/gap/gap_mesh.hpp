@@ -86,6 +86,9 @@ class GapMesh {
   bool is_free(Vertex v) const { return holds_[v] == 0 && !at_[v].empty(); }
   // True where v may move, though chosen cells may use it: on no tagged facet and at no seam.
   bool is_inside(Vertex v) const { return (holds_[v] & (on_tagged | at_seam)) == 0; }
+  // The vertices inside of a cell, and those of all cells at its vertices, ascending.
+  std::vector<Vertex> inner_vertices_of(GapIndex c) const;
+  std::vector<Vertex> inner_vertices_around(GapIndex c) const;
   // True where v may go along the surface: only cells of the gap are there, and no seam.
   bool is_free_on_surface(Vertex v) const { return holds_[v] == on_tagged && !at_[v].empty(); }
   // Faces count in the objective unless the vertices have not found their places yet.

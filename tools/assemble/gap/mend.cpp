@@ -7,7 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "common/mesh/item_lists.hpp"
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/patch.hpp"
@@ -70,16 +69,7 @@ bool Mender::raise(const std::vector<Vertex>& vertices) {
 
 // The cell's own vertices, then those of all cells at these, too.
 bool Mender::raise_around(GapIndex c) {
-  std::vector<Vertex> own, all;
-  for (const Vertex v : gap_.cell(c).vertices()) {
-    if (gap_.is_inside(v)) own.push_back(v);
-    for (const GapIndex other : gap_.cells_at(v))
-      for (const Vertex w : gap_.cell(other).vertices())
-        if (gap_.is_inside(w)) all.push_back(w);
-  }
-  if (raise(own)) return true;
-  sort_unique(all);
-  return raise(all);
+  return raise(gap_.inner_vertices_of(c)) || raise(gap_.inner_vertices_around(c));
 }
 
 bool Mender::step(Vertex v) {

@@ -118,19 +118,12 @@ void RefusalMender::step(std::span<const Vertex> vertices) {
 
 // The cell's own vertices, then those of all cells at these, too.
 void RefusalMender::move_around(GapIndex c) {
-  std::vector<Vertex> own, all;
-  for (const Vertex v : gap_.cell(c).vertices()) {
-    if (gap_.is_inside(v)) own.push_back(v);
-    for (const GapIndex other : gap_.cells_at(v))
-      for (const Vertex w : gap_.cell(other).vertices())
-        if (gap_.is_inside(w)) all.push_back(w);
-  }
-  move(own, comfortable);
+  std::vector<Vertex> vertices = gap_.inner_vertices_of(c);
+  move(vertices, comfortable);
   if (!is_refused(c)) return;
-  sort_unique(all);
-  for (const Vertex v : all)
-    if (!gap_.cell(c).has(v)) own.push_back(v);
-  move(own, comfortable);
+  for (const Vertex v : gap_.inner_vertices_around(c))
+    if (!gap_.cell(c).has(v)) vertices.push_back(v);
+  move(vertices, comfortable);
 }
 
 // Plans a new vertex that joins all facets around these cells and of the skin. False if there is no room for it.
