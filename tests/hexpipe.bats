@@ -75,7 +75,10 @@ setup_file() {
   assert_output --partial "tetmesh $DATA/cube.stl --size 0.5 --threads 2 --seed 7"
   assert_output --partial "lns --threads 2 --seed 7 --time-limit 3"
   run quick -o x.vtu --dry-run --lns '--time-limit 9'
-  assert_output --partial "lns --time-limit 9 |"
+  assert_output --partial "lns --time-limit 9 --slim |"
+  # What is kept may go to certify.
+  run quick -o x.vtu --dry-run --keep stages
+  refute_output --partial "--slim"
   run hexpipe a.stl -o x.inp --solver calculix --dry-run
   assert_output --partial "assemble --solver calculix -o x.inp"
   run hexpipe a.stl --effort thorough -o x.vtu --dry-run

@@ -58,6 +58,10 @@ class PerThread {
 // Calls body(i) for i in [0, count), in any order. Each body writes to its own places.
 template <class Body>
 void parallel_for(std::int64_t count, std::int64_t grain, Body&& body) {
+  if (count <= grain) {
+    for (std::int64_t i = 0; i < count; ++i) body(i);
+    return;
+  }
   tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, grain), [&](const auto& range) {
     for (std::int64_t i = range.begin(); i != range.end(); ++i) body(i);
   });
@@ -81,6 +85,10 @@ void leaving_one_thread(Body&& body) {
 template <class Produce, class Consume>
 void parallel_in_order(std::int64_t count, std::int64_t block, Produce&& produce, Consume&& consume) {
   using Product = decltype(produce(std::int64_t{}, std::int64_t{}));
+  if (count <= block) {
+    if (count > 0) consume(produce(std::int64_t{0}, count));
+    return;
+  }
   const std::size_t tokens = 4 * static_cast<std::size_t>(thread_count());
   // A block's product waits in slot (block number modulo tokens). Blocks leave in order, so the slot is free again by
   // then. Only a plain number flows through the pipeline, because oneTBB leaks the items in flight when a block throws.

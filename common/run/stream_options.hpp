@@ -41,6 +41,7 @@ struct StreamOptions {
   std::string format;                  // --format; empty: `output`'s ending decides; standard output gets a bundle
   GraphFileOptions graph_file;
   bool compress = false;  // write bundles with zstd
+  bool slim = false;      // leave the conflicts out of bundles
   MeshOptions mesh{};
 };
 

@@ -134,6 +134,11 @@ void declare_streams(CLI::App& app, RunContext& context) {
       app.add_option("--format", streams.format, "The format of the output; it overrides the ending of its name"))
       ->type_name("NAME");
   outside_history(app.add_flag("--compress", streams.compress, "Compress the bundle with zstd"));
+  if (*context.info.product == Role::solution)
+    outside_history(
+        app.add_flag("--slim", streams.slim,
+                     "Leave the conflicts out of the bundle, most of its bytes: assemble and viewmesh do not "
+                     "read them; certify and further searches need them"));
   if (*context.info.product == Role::mesh || *context.info.product == Role::result)
     declare_mesh_output(app, *context.info.product, streams.mesh);
 }

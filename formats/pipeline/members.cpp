@@ -268,6 +268,10 @@ bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool
   return known;
 }
 
+bool is_member_of_conflicts(std::string_view name) {
+  return name.starts_with("graph/") && name != graph_weights && name != graph_quads;
+}
+
 bool read_weights(BundleReader& reader, StageData& data, BundleWriter* copy) {
   if (reader.name() != graph_weights) return false;
   graph::ConflictGraph& graph = ensure(data.graph);
@@ -400,6 +404,9 @@ void write_members(BundleWriter& writer, const Candidates& candidates) {
 }
 void write_members(BundleWriter& writer, const graph::ConflictGraph& graph) {
   visit_members_of_graph(graph, writing_to(writer));
+}
+void write_weights(BundleWriter& writer, const graph::ConflictGraph& graph) {
+  writer.add_array(graph_weights, graph.weights);
 }
 void write_members(BundleWriter& writer, const graph::CliqueCover& cover) {
   visit_members_of_cover(cover, writing_to(writer));

@@ -14,6 +14,9 @@ namespace hexpipe::pipeline {
 // The role that a member belongs to by its name's folder; nothing for the history and for unknown members.
 std::optional<Role> role_of_member(std::string_view name);
 
+// Whether this member holds conflicts: most of a graph, which only searches and bounds need.
+bool is_member_of_conflicts(std::string_view name);
+
 // Reads the current member into `data` when it is one of its role's arrays, and also writes it to `copy` unless that is
 // null. Reads a graph's clique cover only with `with_cover`. False: the member is not known (and still unread).
 bool read_member(BundleReader& reader, StageData& data, BundleWriter* copy, bool with_cover);
@@ -46,6 +49,8 @@ void write_members(BundleWriter& writer, const Candidates& candidates);
 void write_members(BundleWriter& writer, const graph::ConflictGraph& graph);
 void write_members(BundleWriter& writer, const graph::CliqueCover& cover);
 void write_members(BundleWriter& writer, const graph::IndependentSet& solution);
+// Only the weights of the graph.
+void write_weights(BundleWriter& writer, const graph::ConflictGraph& graph);
 void write_quads(BundleWriter& writer, const QuadsOfGraph& quads);
 void write_gap_members(BundleWriter& writer, const SolutionGaps& gaps);
 void write_dislocations(BundleWriter& writer, const DislocationSegments& segments);

@@ -155,7 +155,8 @@ void read_role_file(Role role, formats::Input& input, const RunContext& context,
   }
 }
 
-void write_role(Role role, const StageData& data, BundleWriter& writer) {
+// `slim`: without the conflicts of a graph.
+void write_role(Role role, const StageData& data, BundleWriter& writer, bool slim) {
   switch (role) {
     case Role::mesh:
       if (data.part) write_members(writer, *data.part);
@@ -166,9 +167,12 @@ void write_role(Role role, const StageData& data, BundleWriter& writer) {
       write_members(writer, *data.candidates);
       break;
     case Role::graph:
-      write_members(writer, *data.graph);
+      if (slim)
+        write_weights(writer, *data.graph);
+      else
+        write_members(writer, *data.graph);
       if (data.quads) write_quads(writer, *data.quads);
-      if (data.cover) write_members(writer, *data.cover);
+      if (data.cover && !slim) write_members(writer, *data.cover);
       break;
     case Role::solution:
       write_members(writer, *data.solution);
@@ -293,6 +297,8 @@ void Stage::State::choose_output() {
     if (const std::string summary = formats::solver_summary(streams.mesh, writing); !summary.empty())
       context.note(summary);
   }
+  if (streams.slim && !is_bundle_format(format))
+    throw UsageError(fmt::format("--slim leaves members out of a bundle, and '{}' is none", format));
   if (to_stdout && !is_text_format(format) && isatty(STDOUT_FILENO))
     throw UsageError(
         fmt::format("standard output is a terminal: pipe it to the next tool, or write a file with -o, or text "
@@ -358,6 +364,12 @@ StageData Stage::read(const StageRequest& request) {
     if (!holds(data, role))
       throw DataError::at(input ? input->name() : std::string("the files"), "expected {} for {}, found {}; {} makes it",
                           name_of(role), state.context.info.name, list_of(state.seen), maker_of(role));
+  if (data.graph && data.graph->offsets.size() <= 1 && !data.graph->weights.empty() &&
+      contains(request.needs, Role::graph))
+    throw DataError::at(
+        state.source_of(Role::graph),
+        "expected conflicts for {}, found weights alone: the tool that wrote this left them out (--slim)",
+        state.context.info.name);
   fill_defaults(data);
   state.check(data);
   state.take_corners(data);
@@ -372,7 +384,8 @@ void Stage::State::read_bundle(formats::Input& input, StageData& data) {
     const bool is_replaced =
         role ? context.streams.files.contains(*role)
              : has_other_mesh && (is_surface_member(reader.name()) || reader.name() == formats::names_member);
-    BundleWriter* const copy = bundle && !is_replaced && (!role || passes(*role)) ? &*bundle : nullptr;
+    const bool is_left_out = context.streams.slim && is_member_of_conflicts(reader.name());
+    BundleWriter* const copy = bundle && !is_replaced && !is_left_out && (!role || passes(*role)) ? &*bundle : nullptr;
     if (role && !is_replaced) {
       seen.insert(*role);
       sources[*role] = input.name();
@@ -467,7 +480,7 @@ void Stage::State::read_files(std::map<Role, formats::Input>& files, StageData& 
       if (role == Role::mesh) orient(*data.mesh, input.name());
     }
     if (passes(role)) {
-      write_role(role, data, *bundle);
+      write_role(role, data, *bundle, context.streams.slim);
       if (role == Role::mesh) names = data.names;
       write_names();
     }

@@ -24,7 +24,7 @@ constexpr std::array stages{Stage{"tessellate", "surface"}, Stage{"tetmesh", "me
                             Stage{"findhex", "candidates"}, Stage{"buildgraph", "conflicts"},
                             Stage{"initsol", "solution"},   Stage{"lns", "choice"},
                             Stage{"assemble", "result"},    Stage{"fitcad", "fitted result"}};
-constexpr std::size_t tetmesh_stage = 1, findhex_stage = 2, fitcad_stage = 7;
+constexpr std::size_t tetmesh_stage = 1, findhex_stage = 2, search_stage = 5, fitcad_stage = 7;
 
 bool has_ending(const std::string& path, std::initializer_list<std::string_view> endings) {
   std::string lower = path;
@@ -153,6 +153,9 @@ Plan plan_of(const PipeOptions& options) {
       command.words.insert(command.words.end(), {"-o", options.output});
     } else if (options.keep) {
       command.kept_in = kept_file(options, stages[s].product);
+    } else if (s == search_stage) {
+      // What is kept may go to certify; assemble reads no conflicts, of which there is half a kB for each tet.
+      command.words.emplace_back("--slim");
     }
     plan.pipe.push_back(std::move(command));
   }
