@@ -58,6 +58,18 @@ TEST(StopRule, ExpectsTheWholeOfASearchThatHasGainedEnough) {
   EXPECT_FALSE(rule.is_done()) << "9 in three times the work, but 30 in the whole, and it has 23";
 }
 
+TEST(StopRule, JudgesEarlierOnceAllOfTheGraphIsSeen) {
+  StopRule rule(10, 100, 200);
+  rule.record(0, 1000);
+  rule.record(19, 1010);
+  rule.record(20, 1010, 4, true);
+  EXPECT_FALSE(rule.is_done()) << "10 in the last half";
+  rule.record(40, 1010, 4);
+  EXPECT_FALSE(rule.is_done()) << "not judged so early";
+  rule.record(40, 1010, 4, true);
+  EXPECT_TRUE(rule.is_done()) << "nothing since 20";
+}
+
 TEST(StopRule, NeverEndsWithoutALeastGain) {
   StopRule rule(0, 1, 1);
   rule.record(0, 1000);
