@@ -13,10 +13,12 @@ void StopRule::record(double work, std::int64_t weight, double most_times, bool 
 }
 
 bool StopRule::is_done() const {
-  if (least_gain_ <= 0 || points_.empty() || (work_ < least_work_ && !has_seen_all_)) return false;
+  if (least_gain_ <= 0 || points_.empty()) return false;
   const auto gain_since = [&](const Point& point) { return static_cast<double>(points_.back().weight - point.weight); };
+  const bool gains_little = gain_since(points_.front()) < least_gain_;
+  if (work_ < least_work_ && !(has_seen_all_ && gains_little)) return false;
   double times = whole_work_ / work_;
-  if (gain_since(points_.front()) < least_gain_) times = std::min(times, most_times_);
+  if (gains_little) times = std::min(times, most_times_);
   return std::max(1.0, times) * gain_since(points_[half_]) < least_gain_;
 }
 

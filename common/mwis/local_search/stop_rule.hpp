@@ -12,9 +12,10 @@ namespace hexpipe::mwis::local_search {
 class StopRule {
  public:
   // `least_gain` is for the last half, in units of weight; 0: the search goes on for ever. Nothing is judged before
-  // `least_work`, unless the search has seen all of the graph. Between it and `whole_work` the search has seen a sample
-  // of the graph, and is judged by what it would gain if it went on to the whole work as it did in its last half. While
-  // all gains together are less than `least_gain`, it is expected to go on to `most_times` its work at most.
+  // `least_work`, unless all of the graph is seen and all gains together are less than `least_gain`. Between it and
+  // `whole_work` the search has seen a sample of the graph, and is judged by what it would gain if it went on to the
+  // whole work as it did in its last half. While all gains together are less than `least_gain`, it is expected to go on
+  // to `most_times` its work at most.
   StopRule(double least_gain, double least_work, double whole_work)
       : least_gain_(least_gain), least_work_(least_work), whole_work_(whole_work) {}
 
