@@ -302,6 +302,32 @@ assert usual["improvements"] > 0 and usual["weight"] >= (1 - 5e-5) * whole["weig
 PYTHON
 }
 
+@test "--worth judges a search once exact fragments have gone over the whole graph" {
+  optimized_only "it is about results"
+  # A lattice of 12 x 12 x 12 hexes, where greedy finds the best choice. Half of each fragment counts as seen, at least 6
+  # of the hexes.
+  tetmesh "$DATA/cube.stl" --size 0.083 | findhex | buildgraph | initsol --iterations 0 -o lattice.tar
+  lns lattice.tar --no-reductions --stats stats.json -o out.sol
+  holds "stats['chosen'] == 12 ** 3 and 0 < stats['iterations'] < 12 ** 3 / 6" stats.json
+}
+
+@test "what initsol has proven to be the best is not searched again" {
+  initsol ring.graph --stats proof.json -o best.tar
+  holds "proof['complete']" proof.json
+  lns best.tar --no-reductions --stats stats.json -o kept.sol
+  holds "stats['complete'] and stats['iterations'] == 0 and stats['weight'] == proof['weight']" stats.json proof.json
+  # Nothing is known of a graph from a file, nor of one that a stage unknown here may have changed.
+  lns best.tar --graph ring.graph --no-reductions --iterations 20 --stats file.json -o file.sol
+  initsol ring.graph --iterations 0 -o start.tar
+  mkdir mine && tar xf best.tar -C mine && sed -i 's/"tool": "initsol"/"tool": "mine"/' mine/history/01-initsol.json
+  tar cf mine.tar -C mine $(tar tf best.tar)
+  lns mine.tar --no-reductions --iterations 20 --stats unknown.json -o unknown.sol
+  holds "file['iterations'] > 0 and unknown['iterations'] > 0" file.json unknown.json
+  # Another solution is improved until it weighs as much.
+  lns best.tar --solution start.sol --stats other.json -o other.sol
+  holds "other['complete'] and other['weight'] == proof['weight']" other.json proof.json
+}
+
 @test "what reductions solve ends at once" {
   ring --time-limit 100 -o solved.sol --stats stats.json --log log.jsonl
   "$PYTHON" - "$(weight_of solved.sol)" <<'PYTHON'

@@ -252,6 +252,14 @@ TEST(Initsol, CoolsALargeGraphSlowlyOnlyWhereTrialsSaySo) {
   EXPECT_EQ(soon.weight, best);
 }
 
+TEST(Initsol, TriesALargeGraphOnceMoreBeforeItCoolsSlowly) {
+  Random random(13);
+  constexpr std::int32_t vertices = 66000;
+  const InitsolOptions options{.iterations_a_vertex = 1, .tries_first = true, .reduce = false};
+  const InitsolResult result = find_initial_solution(random_band(vertices, 4, 10000, random), {}, options, no_deadline);
+  EXPECT_EQ(result.iterations, (1 + 1 + 2 + 4) * vertices / 4 + vertices);
+}
+
 // Groups of 16 vertices against 24: greedy takes the 16, and no swap of one for two leaves this local optimum, which is
 // far from the best.
 ConflictGraph groups(std::int32_t count) {
@@ -275,6 +283,16 @@ TEST(Initsol, DoesNotCoolSlowlyBecauseTheFirstTrialsGainedMuch) {
   EXPECT_GT(result.weight, 0.999 * count * 24 * 40);
   // Two trials, which find nearly all, and one of twice the length, which gains nothing.
   EXPECT_EQ(result.iterations, 4 * vertices / 4);
+}
+
+TEST(Initsol, TriesSmallGraphsForLonger) {
+  constexpr std::int32_t count = 60, vertices = 40 * count;
+  const InitsolOptions options{.iterations_a_vertex = 15, .tries_first = true, .reduce = false};
+  const InitsolResult result = find_initial_solution(groups(count), {}, options, no_deadline);
+  EXPECT_EQ(result.weight, count * 24 * 40);
+  EXPECT_EQ(result.iterations, 4 * vertices) << "two trials of a move a vertex, and one of two";
+  constexpr std::int32_t few = 40 * (count - 20);
+  EXPECT_EQ(find_initial_solution(groups(count - 20), {}, options, no_deadline).iterations, 15 * few);
 }
 
 TEST(Initsol, StopsAtItsDeadline) {

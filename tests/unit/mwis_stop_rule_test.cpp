@@ -58,6 +58,21 @@ TEST(StopRule, ExpectsTheWholeOfASearchThatHasGainedEnough) {
   EXPECT_FALSE(rule.is_done()) << "9 in three times the work, but 30 in the whole, and it has 23";
 }
 
+TEST(StopRule, JudgesEarlierWhereAllOfTheGraphIsSeenForNothing) {
+  StopRule rule(10, 100, 200);
+  rule.record(0, 1000);
+  rule.record(19, 1003);
+  rule.record(20, 1003, 4, true);
+  EXPECT_FALSE(rule.is_done()) << "12 in four times the work";
+  rule.record(40, 1003, 4);
+  EXPECT_FALSE(rule.is_done()) << "not judged so early";
+  rule.record(40, 1003, 4, true);
+  EXPECT_TRUE(rule.is_done()) << "nothing since 20";
+  rule.record(40, 1010, 4, true);
+  rule.record(99, 1010, 4, true);
+  EXPECT_FALSE(rule.is_done()) << "it has gained 10";
+}
+
 TEST(StopRule, NeverEndsWithoutALeastGain) {
   StopRule rule(0, 1, 1);
   rule.record(0, 1000);

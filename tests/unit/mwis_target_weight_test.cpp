@@ -1,4 +1,4 @@
-// Which bound of a bundle's history is one of the graph that the bundle has now.
+// Which bound of a bundle's history, and which optimum, is one of the graph that the bundle has now.
 
 #include "common/mwis/ground/target_weight.hpp"
 
@@ -51,6 +51,36 @@ TEST(BoundIn, TakesAnythingInEntriesOfOthers) {
 TEST(BoundIn, TakesNoBoundBelowNothing) {
   for (const nlohmann::ordered_json& bound : History{-1, std::numeric_limits<std::uint64_t>::max()})
     EXPECT_EQ(bound_in({graph, proven, {{"tool", "certify"}, {"bound", bound}}}), 70) << bound;
+}
+
+const nlohmann::ordered_json solved{{"tool", "initsol"}, {"weight", 50}, {"complete", true}};
+
+TEST(OptimumIn, IsWhatASearchHasProven) {
+  EXPECT_EQ(optimum_in({graph}), std::nullopt);
+  EXPECT_EQ(optimum_in({graph, {{"tool", "initsol"}, {"weight", 50}, {"complete", false}}}), std::nullopt);
+  EXPECT_EQ(optimum_in({graph, solved}), 50);
+  EXPECT_EQ(optimum_in({graph, solved, {{"tool", "lns-mpi"}}, proven}), 50);
+  EXPECT_EQ(optimum_in({graph, {{"tool", "lns"}, {"weight", 60}, {"complete", true}}}), 60);
+}
+
+TEST(OptimumIn, HoldsAsLongAsTheGraphIsKnownToBeTheSame) {
+  for (const char* tool : {"tetmesh", "findhex", "buildgraph", "mesh-part", "mine"})
+    EXPECT_EQ(optimum_in({graph, solved, {{"tool", tool}}}), std::nullopt) << tool;
+  EXPECT_EQ(optimum_in({graph, solved, {{"version", "1"}}}), std::nullopt);
+  for (const char* role : {"mesh", "candidates", "graph"}) {
+    EXPECT_EQ(optimum_in({graph, solved, replacing({{"tool", "certify"}}, role)}), std::nullopt) << role;
+    EXPECT_EQ(optimum_in({graph, solved, replacing(solved, role)}), 50) << role;
+  }
+  EXPECT_EQ(optimum_in({graph, solved, replacing({{"tool", "certify"}}, "solution")}), 50);
+}
+
+TEST(OptimumIn, TakesAnythingInEntriesOfOthers) {
+  for (const nlohmann::ordered_json& weight : History{-1, std::numeric_limits<std::uint64_t>::max(), "50", nullptr})
+    EXPECT_EQ(optimum_in({graph, {{"tool", "lns"}, {"weight", weight}, {"complete", true}}}), std::nullopt) << weight;
+  for (const nlohmann::ordered_json& complete : History{1, "true", nullptr})
+    EXPECT_EQ(optimum_in({graph, {{"tool", "lns"}, {"weight", 50}, {"complete", complete}}}), std::nullopt) << complete;
+  EXPECT_EQ(optimum_in({nullptr, solved, "text"}), std::nullopt);
+  EXPECT_EQ(optimum_in({{{"tool", 3}}, solved}), 50);
 }
 
 TEST(TargetWeight, IsTheLeastWhoseGapIsNoMore) {

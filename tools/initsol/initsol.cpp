@@ -22,18 +22,26 @@ constexpr std::int64_t most_moves_a_round = 1000;
 constexpr std::int64_t least_rounds = 100;
 
 // Annealing of graphs of this many vertices tries first whether cooling slowly will gain anything (tries_first).
-// Smaller ones cool in a second.
-constexpr std::int32_t least_to_try = 20000;
+// Smaller ones cool in a tenth of a second.
+constexpr std::int32_t least_to_try = 2000;
 // On graphs of hexes, a quarter of a move a vertex, begun in the middle of the temperatures, gains 96 to 100 % of what
 // 15 moves gain over the first local optimum, in a tenth of the time: 0.141 of 0.145 % on mambo-m1, 0.347 of 0.356 % on
 // spot. On random-33k it gains 6.6 of 8.8 %, on block-28k 0.70 of 0.96 %. Such graphs are recognized by what a second
 // trial gains, or by how far the first local optimum is from the best; and by what a third gains: on a scan of spot the
 // first optimum is as far from the best, yet cooling for 90 s found 0.001 % more than the trials had.
 constexpr double moves_a_vertex_of_trial = 0.25, least_gain_of_trial = 1e-4, far_from_optimum = 5e-3;
+// Trials of graphs of fewer vertices are longer: with a quarter of a move a vertex, six of 20 graphs of hexes of 2,000
+// to 20,000 vertices lose 0.01 to 0.4 % on one of three seeds, with one move a vertex three of them 0.01 to 0.02 %.
+constexpr std::int32_t few_vertices = 20000;
+constexpr double moves_a_vertex_of_few = 1;
 // In a run on each of a few graphs a second trial gained at most a tenth of what the first gained (random-33k), on
 // graphs of hexes a twentieth. So it is made only after a gain that leaves it enough. On mambo-m6 the first gains 0.011
 // %, and a second 0.0003 % in 2.6 s.
 constexpr double least_gain_before_second_trial = 5 * least_gain_of_trial;
+// Before graphs of more vertices cool slowly, which takes half a minute, a fourth trial, twice as long as the third,
+// has to gain as much. On spot of 121,000 vertices the third gained 0.0103 %, a fourth nothing, and cooling slowly
+// 0.0003 %.
+constexpr std::int32_t many_vertices = 65536;
 
 graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vector<double> merits,
                                      const InitsolOptions& options, std::int64_t index) {
@@ -192,10 +200,15 @@ class Starts {
   std::int64_t reported_ = 0, asked_ = 0;
 };
 
+std::int64_t moves_of_trial(const graph::ConflictGraph& graph) {
+  const bool is_small = graph.vertex_count() < few_vertices;
+  return static_cast<std::int64_t>((is_small ? moves_a_vertex_of_few : moves_a_vertex_of_trial) * graph.vertex_count());
+}
+
 // Whether cooling slowly will find more than quick trials have, which are short coolings from the middle of the
-// temperatures. The second and the third, which is twice as long as the others, are made only where a doubt is left.
+// temperatures. From the second on they are made only where a doubt is left. The third is twice as long as the others.
 bool gains_after_trials(Starts& starts, const graph::ConflictGraph& graph) {
-  const auto moves = static_cast<std::int64_t>(moves_a_vertex_of_trial * graph.vertex_count());
+  const std::int64_t moves = moves_of_trial(graph);
   const auto gains = [&](std::int64_t before, double least) {
     return static_cast<double>(starts.weight() - before) > least * static_cast<double>(before);
   };
@@ -207,7 +220,11 @@ bool gains_after_trials(Starts& starts, const graph::ConflictGraph& graph) {
   if (!gains(first, least_gain_of_trial) && !gains(optimum, far_from_optimum)) return false;
   const std::int64_t second = starts.weight();
   starts.run(2 * moves, 0.5);
-  return gains(second, least_gain_of_trial);
+  if (!gains(second, least_gain_of_trial)) return false;
+  if (graph.vertex_count() <= many_vertices) return true;
+  const std::int64_t third = starts.weight();
+  starts.run(4 * moves, 0.5);
+  return gains(third, least_gain_of_trial);
 }
 
 InitsolResult search(const graph::ConflictGraph& graph, const std::function<graph::IndependentSet(std::int64_t)>& start,

@@ -27,7 +27,7 @@ struct InitsolOptions {
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();  // moves or kicks of each start
   // The same for each vertex that reductions leave. A search that cools more slowly gains little.
   std::int64_t iterations_a_vertex = std::numeric_limits<std::int64_t>::max();
-  // Whether annealing of a large graph cools slowly only where quick trials show that it gains something.
+  // Whether annealing of a graph of some size cools slowly only where quick trials show that it gains something.
   bool tries_first = false;
   std::int32_t quads = 0;  // the last vertices of the graph are quads (quad_vertices.hpp), which greedy takes last
   bool reduce = true;      // search what exact reductions leave

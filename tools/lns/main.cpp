@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -78,6 +81,11 @@ int main(int argc, char** argv) {
     const auto bound = target.bound || !graph_of_bundle ? target.bound : mwis::ground::bound_in(data.history);
     if (target.gap) options.target = mwis::ground::target_weight(*target.gap, bound, pipeline::weight_of_quads(data));
 
+    // No search is needed to find again what one has proven.
+    constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
+    const std::int64_t optimum = graph_of_bundle ? mwis::ground::optimum_in(data.history).value_or(unknown) : unknown;
+    options.target = std::min(options.target, optimum);
+
     if (data.gaps)
       options.first_places = mwis::bounds::holds_most_of_gap(data.graph->vertex_count(), *data.solution, *data.gaps);
     const std::int32_t candidates = data.graph->vertex_count() - pipeline::quad_count(data);
@@ -85,7 +93,7 @@ int main(int argc, char** argv) {
     Step step("improving the choice");
     pipeline::ChoiceProgress progress(step, data, graph_of_bundle);
     progress.show(graph::total_weight(*data.solution, *data.graph), [&] { return *data.solution; });
-    const mwis::local_search::LnsResult result = mwis::local_search::improve_by_lns(
+    mwis::local_search::LnsResult result = mwis::local_search::improve_by_lns(
         *data.graph, *data.solution, options, deadline, [&](const mwis::local_search::LnsProgress& now) {
           log.record(deadline.elapsed(), now.iteration, now.weight);
           if (fragments)
@@ -93,6 +101,7 @@ int main(int argc, char** argv) {
           progress.show(now.weight, now.solution);
         });
     const double seconds = deadline.elapsed();
+    result.complete |= result.weight >= optimum;
     context.statistics["weight"] = result.weight;
     context.statistics["chosen"] = result.solution.size();
     context.statistics["iterations"] = result.iterations;

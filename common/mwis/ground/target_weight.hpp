@@ -12,6 +12,10 @@ namespace hexpipe::mwis::ground {
 // graph was made or read from a file do not count.
 std::optional<std::int64_t> bound_in(const std::vector<nlohmann::ordered_json>& history);
 
+// The weight that initsol or lns has proven to be the best for this graph, according to the history. It holds for as
+// long as only tools follow that leave the graph as it is.
+std::optional<std::int64_t> optimum_in(const std::vector<nlohmann::ordered_json>& history);
+
 // How far a weight is from a bound, as a share of the bound; 0 if the bound is 0.
 double gap_to(std::int64_t bound, std::int64_t weight);
 

@@ -4,18 +4,21 @@
 
 namespace hexpipe::mwis::local_search {
 
-void StopRule::record(double work, std::int64_t weight, double most_times) {
+void StopRule::record(double work, std::int64_t weight, double most_times, bool has_seen_all) {
   work_ = work;
   most_times_ = most_times;
+  has_seen_all_ = has_seen_all;
   if (points_.empty() || weight > points_.back().weight) points_.push_back({work, weight});
   while (half_ + 1 < points_.size() && points_[half_ + 1].work <= work_ / 2) ++half_;
 }
 
 bool StopRule::is_done() const {
-  if (least_gain_ <= 0 || work_ < least_work_ || points_.empty()) return false;
+  if (least_gain_ <= 0 || points_.empty()) return false;
   const auto gain_since = [&](const Point& point) { return static_cast<double>(points_.back().weight - point.weight); };
+  const bool gains_little = gain_since(points_.front()) < least_gain_;
+  if (work_ < least_work_ && !(has_seen_all_ && gains_little)) return false;
   double times = whole_work_ / work_;
-  if (gain_since(points_.front()) < least_gain_) times = std::min(times, most_times_);
+  if (gains_little) times = std::min(times, most_times_);
   return std::max(1.0, times) * gain_since(points_[half_]) < least_gain_;
 }
 

@@ -76,7 +76,11 @@ class Reducer {
   bool is_worth_it();
 
   void decide(std::int32_t v);
+  bool may_decide(std::int64_t weight);
   bool look_around(std::int32_t v);
+  bool gather_around(std::int32_t v);
+  void count_look();
+  void build_rows();
   void build_row(std::int32_t v, bits::Word* row);
   bool bound_without(const bits::Word* excluded, std::int64_t limit);
   bool drop_replaceable(std::int32_t v);
