@@ -573,6 +573,25 @@ struct ConformingScene {
   double hex_volume() { return hex_volume_of(GapMesh(hybrid, tags, {})); }
 };
 
+// What is kept of each cell's faces says the same as faces that are judged together.
+TEST(FaceCosts, OfCellsThatAreThereAreThoseOfTheSameCellsPlanned) {
+  int costly = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    ConformingScene scene(seed, Random(seed));
+    const GapMesh gap(scene.hybrid, scene.tags, {});
+    for (Vertex v = 0; v < static_cast<Vertex>(gap.vertex_count()); ++v) {
+      const auto cells = gap.cells_at(v);
+      std::vector<GapCell> planned;
+      for (const GapIndex c : cells) planned.push_back(gap.cell(c));
+      const double cost = cost_of_faces(gap, cells);
+      EXPECT_EQ(cost, cost_of_faces(gap, planned, cells));
+      costly += cost > 0;
+    }
+  }
+  EXPECT_GT(costly, 100);
+}
+
 TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
   std::int64_t changed = 0, merged_on_surface = 0;
   constexpr std::int64_t seeds = hexpipe::testing::random_cases(2000);

@@ -62,7 +62,7 @@ bool Mender::raise(const std::vector<Vertex>& vertices) {
   const double before = patch_.least();
   patch_.raise(least_quality, rounds_of_moves);
   if (patch_.least() < before + least_rise || !patch_.keeps_floors()) return false;
-  if (patch_.cost() > patch_.cost_before() - least_gain) return false;
+  if (!patch_.costs_at_most(patch_.cost_before() - least_gain)) return false;
   patch_.carry_out(gap_, {});
   return true;
 }
