@@ -131,6 +131,20 @@ void Patch::raise(double goal, int rounds) {
   }
 }
 
+bool Patch::raise_with_neighbours(double goal, double enough, int rounds) {
+  const double most = cost_before();
+  bool any = true;
+  for (int round = 0; round < rounds && any; ++round) {
+    any = false;
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      if (!improve(i, goal)) continue;
+      any = true;
+      if (least() >= enough && keeps_floors() && costs_at_most(most)) return true;
+    }
+  }
+  return false;
+}
+
 double Patch::hex_volume() const {
   double volume = 0;
   for (const Cell& cell : cells_)

@@ -38,6 +38,10 @@ class Patch {
   // rounds, or after the second or a later one that did not raise the least quality. Chosen cells stay valid and as
   // good as they have to be (least_hex), or as they were.
   void raise(double goal, int rounds);
+  // The same for vertices whose cells are good enough, but not as good as `goal`: a poor cell rises only where those
+  // around it yield, and they can only where they are better than they have to be. Ends when no cell of the gap is
+  // below `enough`, the floors hold, and the cost has not risen. False if that does not come about.
+  bool raise_with_neighbours(double goal, double enough, int rounds);
 
   // Moves each of the first `most` vertices in turn by the one of a few steps along the axes after which the cost is
   // least. The floors, which have to hold before, hold. Faces have no gradient worth the name, because three cells and
