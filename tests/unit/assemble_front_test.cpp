@@ -89,6 +89,9 @@ TEST(Front, NeverAsksForMoreCellsThanThereAre) {
       if (fits) cells.push_back(next);
     }
     EXPECT_LE(around(cells).least_cells(), cells.size());
+    const auto least = static_cast<double>(around(cells).least_cells());
+    EXPECT_TRUE(around(cells).may_cost_less(2, 2.5 + least));
+    EXPECT_FALSE(around(cells).may_cost_less(2, 2 + least));
   }
 }
 

@@ -20,6 +20,7 @@
 #include "tools/assemble/gap/gap_mesh.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/passes.hpp"
+#include "tools/assemble/gap/patch.hpp"
 #include "tools/assemble/gap/refill.hpp"
 #include "tools/assemble/gap/skin.hpp"
 
@@ -573,6 +574,25 @@ struct ConformingScene {
   double hex_volume() { return hex_volume_of(GapMesh(hybrid, tags, {})); }
 };
 
+// What is kept of each cell's faces says the same as faces that are judged together.
+TEST(FaceCosts, OfCellsThatAreThereAreThoseOfTheSameCellsPlanned) {
+  int costly = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    ConformingScene scene(seed, Random(seed));
+    const GapMesh gap(scene.hybrid, scene.tags, {});
+    for (Vertex v = 0; v < static_cast<Vertex>(gap.vertex_count()); ++v) {
+      const auto cells = gap.cells_at(v);
+      std::vector<GapCell> planned;
+      for (const GapIndex c : cells) planned.push_back(gap.cell(c));
+      const double cost = cost_of_faces(gap, cells);
+      EXPECT_EQ(cost, cost_of_faces(gap, planned, cells));
+      costly += cost > 0;
+    }
+  }
+  EXPECT_GT(costly, 100);
+}
+
 TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
   std::int64_t changed = 0, merged_on_surface = 0;
   constexpr std::int64_t seeds = hexpipe::testing::random_cases(2000);
@@ -644,6 +664,32 @@ TEST(FewerCells, AHexGivesWayWhereACellBesideItStaysPoor) {
     EXPECT_TRUE(has_tagged_skin(after, tags));
     EXPECT_NEAR(after.volume, 8, 1e-12);
   }
+}
+
+// A cell that cannot rise because those beside it are barely good enough rises with them.
+TEST(Patch, APoorCellRisesWhereItsNeighboursYield) {
+  int helped = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    ConformingScene scene(seed, Random(seed));
+    const GapMesh gap(scene.hybrid, scene.tags, {});
+    if (!gap.is_valid()) continue;
+    Patch patch(gap);
+    for (const GapIndex c : all_cells(gap)) {
+      const std::vector<Vertex> vertices = gap.inner_vertices_around(c);
+      if (gap.cell(c).quality >= least_quality || vertices.empty()) continue;
+      patch.take(vertices, {});
+      patch.raise(least_quality, 5);
+      if (patch.least() >= least_quality && patch.keeps_floors() && patch.costs_at_most(patch.cost_before())) continue;
+      patch.take(vertices, {});
+      if (!patch.raise_with_neighbours(0.2, least_quality, 5)) continue;
+      ++helped;
+      EXPECT_GE(patch.least(), least_quality);
+      EXPECT_TRUE(patch.keeps_floors());
+      EXPECT_LE(patch.cost(), patch.cost_before());
+    }
+  }
+  EXPECT_GT(helped, 0);
 }
 
 std::int64_t count_refused(HybridMesh& mesh, const SurfaceTags& tags) {

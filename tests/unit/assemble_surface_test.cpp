@@ -145,6 +145,21 @@ TEST(InputSurface, TheNearestPointOfATriangleIsTheNearestOfMany) {
   }
 }
 
+TEST(InputSurface, ATriangleIsSurelyFartherOnlyIfItIs) {
+  Random random(10);
+  auto point = [&] { return Vec3{random.uniform(), random.uniform(), random.uniform()}; };
+  int farther = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const std::array<Vec3, 3> triangle{point(), point(), trial % 10 == 0 ? Vec3{} : point()};
+    const Vec3 to = 2 * point() - Vec3{0.5, 0.5, 0.5};
+    const double found = norm_squared(nearest_on_triangle(triangle, to) - to);
+    EXPECT_FALSE(is_surely_farther(triangle, to, found)) << "as near as its nearest point";
+    farther += is_surely_farther(triangle, to, 0.5 * found);
+    EXPECT_FALSE(is_surely_farther(triangle, triangle[1], 0));
+  }
+  EXPECT_GT(farther, 500);
+}
+
 TEST(BoundaryDeviation, SeesWhatMoved) {
   auto lattice = make_lattice(2);
   tag_boundary(lattice.mesh);

@@ -63,17 +63,21 @@ Facet facet_of(const FacesOf& cell, std::size_t face) {
   return Facet::of(std::span<const Vertex>(own).first(count));
 }
 
+Side side_of(std::array<Vertex, 4> corners, std::size_t cell, std::uint8_t face) {
+  const VertexKey<4> key = key_of(corners);
+  const auto pair = [&](std::size_t i) {
+    return std::uint64_t{static_cast<std::uint32_t>(key[i])} << 32 | static_cast<std::uint32_t>(key[i + 1]);
+  };
+  return {pair(0), pair(2), static_cast<std::uint32_t>(cell), face};
+}
+
 void append_sides(const FacesOf& cell, std::size_t number, std::vector<Side>& sides) {
   std::uint8_t face = 0;
   auto each = [&](const auto& facets) {
     for (const auto& facet : facets) {
       std::array<Vertex, 4> own{no_index, no_index, no_index, no_index};
       for (std::size_t i = 0; i < facet.size(); ++i) own[i] = cell.corners[facet[i]];
-      const VertexKey<4> key = key_of(own);
-      const auto pair = [&](std::size_t i) {
-        return std::uint64_t{static_cast<std::uint32_t>(key[i])} << 32 | static_cast<std::uint32_t>(key[i + 1]);
-      };
-      sides.push_back({pair(0), pair(2), static_cast<std::uint32_t>(number), face++});
+      sides.push_back(side_of(own, number, face++));
     }
   };
   with_topology(cell.kind, [&](auto topology) {
@@ -145,7 +149,7 @@ class Centres {
     const FacesOf& cell = cells_[c];
     if (!centres_[c]) {
       const auto count = static_cast<std::size_t>(corner_count(cell.kind));
-      centres_[c] = cell.centre ? *cell.centre : cell_centre(cell.kind, std::span(cell.points).first(count));
+      centres_[c] = cell_centre(cell.kind, std::span(cell.points).first(count));
     }
     return *centres_[c];
   }
@@ -226,15 +230,54 @@ double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::sp
   return cost_of_faces(gap, faces, instead_of);
 }
 
-double cost_of_faces(const GapMesh& gap, GapIndex c) {
-  if (!gap.counts_faces()) return 0;
+namespace {
+
+std::size_t face_count(CellKind kind) {
+  return with_topology(
+      kind, [](auto topology) { return decltype(topology)::triangles.size() + decltype(topology)::quads.size(); });
+}
+
+// What each face of a cell that is there costs, found once as long as nothing around it changes.
+const FaceCost& face_costs_of(const GapMesh& gap, GapIndex c) {
   FaceCost& known = gap.face_cost_of(c);
-  if (const std::uint64_t age = gap.age_of_cell(c); known.age != age) {
-    FacesOf faces = faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices());
-    faces.centre = gap.centre_of(c);
-    known = {age, cost_of_faces(gap, std::span(&faces, 1), std::span(&c, 1))};
+  const std::uint64_t age = gap.age_of_cell(c);
+  if (known.age == age) return known;
+  const FacesOf cell = faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices());
+  const Vec3 centre = gap.centre_of(c);
+  FaceCost costs{.age = age};
+  InnerFaces inner{};
+  for (std::size_t face = 0; face < face_count(cell.kind); ++face)
+    if (const auto beyond = centre_behind(gap, facet_of(cell, face).reversed(), std::span(&c, 1))) {
+      costs.of_faces[face] = cost_between(gap, cell, face, centre, *beyond);
+      inner[face] = 1;
+    }
+  costs.of_span = span_cost(gap, cell, inner);
+  for (const double cost : costs.of_faces) costs.cost += cost;
+  costs.cost += costs.of_span;
+  return known = costs;
+}
+
+// The faces of cells[i] that cost something, but not those that another cell before it in the list has, too.
+void append_costly_sides(const GapMesh& gap, std::span<const GapIndex> cells, std::size_t i, std::vector<Side>& sides) {
+  const FaceCost& costs = face_costs_of(gap, cells[i]);
+  const GapCell& cell = gap.cell(cells[i]);
+  for (std::size_t face = 0; face < face_count(cell.kind); ++face) {
+    if (costs.of_faces[face] == 0) continue;
+    std::array<Vertex, 4> own{no_index, no_index, no_index, no_index};
+    std::size_t count = 0;
+    for (const std::uint8_t k : corners_of_face(cell.kind, face)) own[count++] = cell.corners[k];
+    const Facet beyond = Facet::of(std::span<const Vertex>(own).first(count)).reversed();
+    const bool is_counted = std::ranges::any_of(cells.first(i), [&](GapIndex other) {
+      return has_facet(gap.cell(other).kind, gap.cell(other).vertices(), beyond);
+    });
+    if (!is_counted) sides.push_back(side_of(own, i, static_cast<std::uint8_t>(face)));
   }
-  return known.cost;
+}
+
+}  // namespace
+
+double cost_of_faces(const GapMesh& gap, GapIndex c) {
+  return gap.counts_faces() ? face_costs_of(gap, c).cost : 0;
 }
 
 bool is_refused(const GapMesh& gap, GapIndex c) {
@@ -243,15 +286,14 @@ bool is_refused(const GapMesh& gap, GapIndex c) {
 
 double cost_of_faces(const GapMesh& gap, std::span<const GapIndex> cells) {
   if (!gap.counts_faces()) return 0;
-  // Most faces cost nothing.
-  if (std::ranges::all_of(cells, [&](GapIndex c) { return cost_of_faces(gap, c) == 0; })) return 0;
-  std::vector<FacesOf> faces;
-  faces.reserve(cells.size());
-  for (const GapIndex c : cells) {
-    faces.push_back(faces_of(gap, gap.cell(c).kind, gap.cell(c).vertices()));
-    faces.back().centre = gap.centre_of(c);
-  }
-  return cost_of_faces(gap, faces, cells);
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < cells.size(); ++i) append_costly_sides(gap, cells, i, sides);
+  // In the order of FaceGraph: sums of one room are the same whichever way they come about.
+  std::sort(sides.begin(), sides.end());
+  double cost = 0;
+  for (const Side& side : sides) cost += face_costs_of(gap, cells[side.cell]).of_faces[side.face];
+  for (const GapIndex c : cells) cost += face_costs_of(gap, c).of_span;
+  return cost;
 }
 
 }  // namespace hexpipe::assemble::gap

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,7 +18,6 @@ struct FacesOf {
   std::array<Vertex, 8> corners{};
   std::array<Vec3, 8> points{};
   bool is_kept = false;
-  std::optional<Vec3> centre{};  // where it is known
 };
 
 // How cells that are judged together meet at their faces, and what lies behind the others: this stays while only their

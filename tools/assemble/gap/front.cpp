@@ -69,11 +69,23 @@ std::size_t Front::most_bodies() const {
   return bodies;
 }
 
-std::size_t Front::least_cells() const {
+std::size_t Front::least_by_facets() const {
   const std::size_t closed_at_most = quads_ > 0 ? 5 : 4;  // by one cell
-  const std::size_t by_facets = (size_ + closed_at_most - 1) / closed_at_most;
-  const std::size_t halves = size_ - quads_, bodies = 2 * most_bodies();
-  return halves > bodies ? std::max(by_facets, (halves - bodies + 1) / 2) : by_facets;
+  return (size_ + closed_at_most - 1) / closed_at_most;
+}
+
+std::size_t Front::least_in_bodies(std::size_t bodies) const {
+  const std::size_t halves = size_ - quads_;
+  return halves > 2 * bodies ? (halves - 2 * bodies + 1) / 2 : 0;
+}
+
+std::size_t Front::least_cells() const {
+  return std::max(least_by_facets(), least_in_bodies(most_bodies()));
+}
+
+bool Front::may_cost_less(double cost, double most) const {
+  const auto is_below = [&](std::size_t cells) { return cost + static_cast<double>(cells) < most; };
+  return is_below(least_by_facets()) && (is_below(least_in_bodies(1)) || is_below(least_in_bodies(most_bodies())));
 }
 
 }  // namespace hexpipe::assemble::gap

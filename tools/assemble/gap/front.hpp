@@ -86,10 +86,14 @@ class Front {
   // quad, so that p is no more than the number of quads q, and t + p >= (f - q) / 2 - k. Facets with an edge that no
   // third one has belong to the same body: that bounds k.
   std::size_t least_cells() const;
+  // Whether `cost` and one for each of least_cells() is below `most`. Bodies are counted only where they decide.
+  bool may_cost_less(double cost, double most) const;
 
  private:
   void remove(SmallFacet facet);
   std::size_t most_bodies() const;
+  std::size_t least_by_facets() const;
+  std::size_t least_in_bodies(std::size_t bodies) const;
 
   std::array<SmallFacet, 64> facets_{};
   std::size_t size_ = 0, quads_ = 0;

@@ -45,10 +45,12 @@ struct KeptCell {
   }
 };
 
-// The cost of a cell's faces (face_costs.hpp), and the age of the cell when it was found.
+// What the faces of a cell cost (face_costs.hpp), and the age of the cell when that was found.
 struct FaceCost {
   std::uint64_t age = std::numeric_limits<std::uint64_t>::max();
-  double cost = 0;
+  double cost = 0;                   // in all
+  std::array<double, 5> of_faces{};  // triangles before quads
+  double of_span = 0;
 };
 
 class GapMesh {

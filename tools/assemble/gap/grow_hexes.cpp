@@ -76,7 +76,7 @@ double HexGrower::grow(Vertex v, double price, double wanted) {
   for (const double part : steps_out) {
     const double step = std::min(part * length, wanted / slope), gained = step * slope;
     patch_.place(v, gap_.points()[v] + gradient * (step / slope));
-    if (!patch_.keeps_floors() || patch_.cost() > before + price * gained) continue;
+    if (!patch_.keeps_floors() || !patch_.costs_at_most(before + price * gained)) continue;
     patch_.carry_out(gap_, {});
     return gained;
   }

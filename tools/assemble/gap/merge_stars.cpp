@@ -183,7 +183,7 @@ bool StarMerger::make_room(const StarMerge& merge, const Room& room) {
   patch_.take(moving, replacement);
   patch_.place(merge.into, merge.at);
   patch_.raise(least_quality, rounds_to_yield);
-  if (!patch_.keeps_floors() || patch_.cost() > patch_.cost_before() - least_gain) return false;
+  if (!patch_.keeps_floors() || !patch_.costs_at_most(patch_.cost_before() - least_gain)) return false;
   patch_.carry_out(gap_, replacement);
   return true;
 }

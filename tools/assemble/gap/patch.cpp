@@ -39,6 +39,7 @@ void Patch::add(Cell cell, std::span<const Vertex> corners) {
 
 void Patch::take(std::span<const Vertex> moving, const Replacement& replacement) {
   vertices_.clear(), cells_.clear(), moving_.clear(), kept_.clear();
+  graph_.reset();
   before_.assign(replacement.out.begin(), replacement.out.end());
   for (const Vertex v : moving) {
     before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
@@ -130,6 +131,20 @@ void Patch::raise(double goal, int rounds) {
   }
 }
 
+bool Patch::raise_with_neighbours(double goal, double enough, int rounds) {
+  const double most = cost_before();
+  bool any = true;
+  for (int round = 0; round < rounds && any; ++round) {
+    any = false;
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      if (!improve(i, goal)) continue;
+      any = true;
+      if (least() >= enough && keeps_floors() && costs_at_most(most)) return true;
+    }
+  }
+  return false;
+}
+
 double Patch::hex_volume() const {
   double volume = 0;
   for (const Cell& cell : cells_)
@@ -159,7 +174,7 @@ double Patch::cost_before() const {
 }
 
 FacesOf Patch::faces_of(const Cell& cell) const {
-  FacesOf faces{cell.kind, {}, {}, cell.is_kept, {}};
+  FacesOf faces{cell.kind, {}, {}, cell.is_kept};
   for (std::size_t i = 0; i < cell.vertices().size(); ++i) {
     faces.corners[i] = vertices_[cell.corners[i]];
     faces.points[i] = points_[cell.corners[i]];
@@ -174,11 +189,23 @@ std::vector<FacesOf> Patch::faces_of_all() const {
   return cells;
 }
 
-double Patch::cost() const {
+double Patch::cost_of_cells() const {
   double sum = 0;
   for (const Cell& cell : cells_)
     if (!cell.is_kept) sum += cost_of(quality(cell));
-  return sum + cost_of_faces(gap_, faces_of_all(), before_);
+  return sum;
+}
+
+double Patch::cost() {
+  const double cells = cost_of_cells();
+  if (!gap_.counts_faces()) return cells;
+  const std::vector<FacesOf> faces = faces_of_all();
+  if (!graph_) graph_.emplace(gap_, faces, before_);
+  return cells + graph_->cost(faces);
+}
+
+bool Patch::costs_at_most(double most) {
+  return cost_of_cells() <= most && cost() <= most;
 }
 
 void Patch::carry_out(GapMesh& gap, const Replacement& replacement) const {

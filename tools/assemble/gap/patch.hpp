@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,10 @@ class Patch {
   // rounds, or after the second or a later one that did not raise the least quality. Chosen cells stay valid and as
   // good as they have to be (least_hex), or as they were.
   void raise(double goal, int rounds);
+  // The same for vertices whose cells are good enough, but not as good as `goal`: a poor cell rises only where those
+  // around it yield, and they can only where they are better than they have to be. Ends when no cell of the gap is
+  // below `enough`, the floors hold, and the cost has not risen. False if that does not come about.
+  bool raise_with_neighbours(double goal, double enough, int rounds);
 
   // Moves each of the first `most` vertices in turn by the one of a few steps along the axes after which the cost is
   // least. The floors, which have to hold before, hold. Faces have no gradient worth the name, because three cells and
@@ -51,7 +56,9 @@ class Patch {
   // was.
   bool keeps_floors() const;
   // The cost of the gap's cells and faces after the change.
-  double cost() const;
+  double cost();
+  // Whether that is no more than `most`. Faces are looked at only where the cells alone cost less.
+  bool costs_at_most(double most);
   // The cost of the gap's cells and faces before it.
   double cost_before() const;
 
@@ -82,6 +89,7 @@ class Patch {
   double shortest_edge_at(std::size_t i) const;
   FacesOf faces_of(const Cell& cell) const;
   std::vector<FacesOf> faces_of_all() const;
+  double cost_of_cells() const;
   double cost_at(std::size_t i, const FaceGraph& graph, std::vector<FacesOf>& faces) const;
   bool keeps_floors_at(std::size_t i) const;
   double step(std::size_t i, const FaceGraph& graph, std::vector<FacesOf>& faces);
@@ -96,6 +104,7 @@ class Patch {
   std::vector<Local> moving_;
   std::vector<std::vector<std::size_t>> at_;  // by place in moving_: those of `cells_`
   shape::PointStar star_;
+  std::optional<FaceGraph> graph_;  // of the cells, for cost(), when that has been asked for since take()
 };
 
 // Moves one vertex as Patch::lower_cost() does. False if no step lowers the cost.

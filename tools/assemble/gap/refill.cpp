@@ -36,19 +36,29 @@ static_assert(number_of({0, 1, 2, 3}) == 0 && number_of({8, 9, 10, 11}) == 494);
 
 }  // namespace
 
-void RoomCells::begin(const GapMesh& gap, std::span<const Vertex> vertices, std::int32_t region) {
-  gap_ = &gap, vertices_ = vertices, region_ = region;
+void RoomCells::begin(const GapMesh& gap, std::span<const Vertex> vertices, std::int32_t region, double floor) {
+  gap_ = &gap, vertices_ = vertices, region_ = region, floor_ = floor;
   ++room_;
 }
 
-GapCell RoomCells::made_of(const SmallCell& cell) const {
+std::array<Vertex, 6> RoomCells::corners_of(const SmallCell& cell) const {
   std::array<Vertex, 6> corners{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(cell.kind)); ++i)
     corners[i] = vertices_[cell.corners[i]];
-  return gap_->make(cell.kind, corners, region_);
+  return corners;
 }
 
-RoomCells::Measures RoomCells::measured(const GapCell& cell) const {
+GapCell RoomCells::made_of(const SmallCell& cell) const {
+  return gap_->make(cell.kind, corners_of(cell), region_);
+}
+
+// Whether readers would turn the cell round, and its volume, are asked only where it is good enough.
+RoomCells::Measures RoomCells::measured(const SmallCell& small) const {
+  const std::array<Vertex, 6> corners = corners_of(small);
+  const auto own = std::span<const Vertex>(corners).first(static_cast<std::size_t>(corner_count(small.kind)));
+  const double quality = quality_of(small.kind, gap_->points(), own);
+  if (quality < floor_) return {quality, 0, 0};
+  const GapCell cell = gap_->make(small.kind, corners, region_);
   return {cell.quality, volume_of(*gap_, cell), cost_of(cell.quality)};
 }
 
@@ -76,13 +86,16 @@ RoomCells::Measures RoomCells::of(const SmallCell& cell) {
   std::uint32_t key = cell.kind == CellKind::prism ? 1 : 0;
   for (const Corner c : cell.corners) key = key << 4 | c;
   Slot& slot = others_[(key * 0x9e3779b9u) >> 26];
-  if (slot.room != room_ || slot.key != key) slot = {room_, key, measured(made_of(cell))};
+  if (slot.room != room_ || slot.key != key) slot = {room_, key, measured(cell)};
   return slot.measures;
 }
 
 // Takes the cell into the list where no facet of it is in the front the wrong way round (there another cell is on that
 // side), it is good enough, and not larger than what is left.
 void Refill::offer(const SmallCell& cell, std::vector<Offer>& offers) {
+  // The quality refuses most.
+  const RoomCells::Measures measures = cells_.of(cell);
+  if (measures.quality < floor_ || measures.volume > space_) return;
   int closes = 0;
   bool fits = true;
   for_facets(cell, [&](SmallFacet facet) {
@@ -90,10 +103,7 @@ void Refill::offer(const SmallCell& cell, std::vector<Offer>& offers) {
     closes += closes_it ? 1 : -1;
     fits = fits && (closes_it || !front_.has(facet.reversed()));
   });
-  if (!fits) return;
-  const RoomCells::Measures measures = cells_.of(cell);
-  if (measures.quality < floor_ || measures.volume > space_) return;
-  offers.push_back({cell, measures.cost, measures.volume, closes});
+  if (fits) offers.push_back({cell, measures.cost, measures.volume, closes});
 }
 
 // On two quads of the front that have an edge in common.
@@ -145,8 +155,21 @@ std::vector<Refill::Offer> Refill::fewest_offers() {
   return fewest;
 }
 
-// Keeps the cells that are placed if they are the best so far.
+// Whether the cells that are placed are those that are there.
+bool Refill::are_present() const {
+  return placed_.size() == out_.size() && std::ranges::all_of(placed_, [&](const SmallCell& small) {
+           const GapCell made = cells_.made_of(small);
+           return std::ranges::any_of(out_, [&](GapIndex c) {
+             const GapCell& cell = gap_.cell(c);
+             return cell.kind == made.kind && std::ranges::is_permutation(cell.vertices(), made.vertices());
+           });
+         });
+}
+
+// Keeps the cells that are placed if they are the best so far. What is there is met in nearly every room, and known not
+// to cost less than itself.
 void Refill::compare(double cost) {
+  if (are_present()) return;
   std::vector<GapCell> made;
   for (const SmallCell& cell : placed_) made.push_back(cells_.made_of(cell));
   const double total = cost + cost_of_faces(gap_, made, out_);
@@ -171,7 +194,7 @@ void Refill::try_each(const std::vector<Offer>& offers, double cost) {
 
 void Refill::search(double cost) {
   if (front_.empty()) return compare(cost);
-  if (cost + static_cast<double>(front_.least_cells()) >= most_ || steps_left_-- <= 0) return;
+  if (!front_.may_cost_less(cost, most_) || steps_left_-- <= 0) return;
   try_each(fewest_offers(), cost);
 }
 
@@ -181,7 +204,7 @@ bool Refill::begin(std::span<const GapIndex> out) {
   if (!room || room->vertices.size() > most_corners) return false;
   room_ = std::move(*room);
   out_ = out;
-  cells_.begin(gap_, room_.vertices, room_.region);
+  cells_.begin(gap_, room_.vertices, room_.region, floor_);
   front_ = {};
   const auto place_of = [&](Vertex v) {
     return static_cast<Corner>(std::ranges::lower_bound(room_.vertices, v) - room_.vertices.begin());
@@ -202,14 +225,14 @@ bool Refill::begin(std::span<const GapIndex> out) {
 std::optional<std::vector<GapCell>> Refill::find(std::span<const GapIndex> out) {
   const std::uint64_t state = TriedRooms::state_of(gap_, out);
   if (failed_.contains(state)) return std::nullopt;
+  const Worth now = worth_of(gap_, out);
+  floor_ = now.floor;
   if (begin(out)) {
-    const Worth now = worth_of(gap_, out);
-    floor_ = now.floor;
     // In most rooms a facet has no choice at all: then nobody has to know what faces cost.
     const std::vector<Offer> offers = fewest_offers();
     if (!offers.empty()) {
       most_ = now.cost + cost_of_faces(gap_, out) - least_gain;
-      if (static_cast<double>(front_.least_cells()) < most_) try_each(offers, 0);
+      if (front_.may_cost_less(0, most_)) try_each(offers, 0);
     }
     if (!best_.empty() && std::ranges::all_of(best_, [&](const GapCell& cell) { return is_valid(gap_, cell); }))
       return best_;

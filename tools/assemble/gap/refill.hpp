@@ -21,8 +21,8 @@ class RoomCells {
     double quality = 0, volume = 0, cost = 0;
   };
 
-  // Forgets the last room. `vertices` has to stay.
-  void begin(const GapMesh& gap, std::span<const Vertex> vertices, std::int32_t region);
+  // Forgets the last room. `vertices` has to stay. Of a cell below `floor` only the quality is measured.
+  void begin(const GapMesh& gap, std::span<const Vertex> vertices, std::int32_t region, double floor);
   Measures of(const SmallCell& cell);
   GapCell made_of(const SmallCell& cell) const;
 
@@ -33,12 +33,14 @@ class RoomCells {
     Measures measures;
   };
 
-  Measures measured(const GapCell& cell) const;
+  std::array<Vertex, 6> corners_of(const SmallCell& cell) const;
+  Measures measured(const SmallCell& small) const;
   Measures of_tet(const SmallCell& cell);
 
   const GapMesh* gap_ = nullptr;
   std::span<const Vertex> vertices_;
   std::int32_t region_ = 0;
+  double floor_ = 0;
   std::uint32_t room_ = 0;
   std::array<Slot, 495> tets_;  // four of twelve corners
   std::array<Slot, 64> others_;
@@ -68,6 +70,7 @@ class Refill {
   void search(double cost);
   void try_each(const std::vector<Offer>& offers, double cost);
   void compare(double cost);
+  bool are_present() const;
 
   const GapMesh& gap_;
   TriedRooms failed_;

@@ -61,7 +61,9 @@ double BoundaryDeviation::to_facets_at(Vertex v, const Vec3& from) const {
     for (int diagonal = 0; diagonal < (corners[3] == corners[2] ? 1 : 2); ++diagonal)
       for (const auto& [a, b, c] : triangles_of(corners, diagonal)) {
         if (b == c) continue;  // the second one of a triangle
-        const Vec3 at = nearest_on_triangle({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, from);
+        const std::array triangle{mesh_.points[a], mesh_.points[b], mesh_.points[c]};
+        if (is_surely_farther(triangle, from, least * least)) continue;
+        const Vec3 at = nearest_on_triangle(triangle, from);
         least = std::min(least, norm(at - from));
       }
   }
@@ -72,19 +74,28 @@ double BoundaryDeviation::to_facets_at(Vertex v, const Vec3& from) const {
 double BoundaryDeviation::from_input_vertex(Vertex v, double enough) const {
   const Vec3 was = input_points_[origin_[v]];
   double least = to_facets_at(v, was);
+  if (least <= enough) return least;
+  std::vector<Vertex> seen{v};  // neighbours belong to two facets or more
   for (std::int32_t f : facets_.at(v))
-    for (Vertex neighbour : facet(f))
-      if (least > enough && neighbour != v) least = std::min(least, to_facets_at(neighbour, was));
+    for (Vertex neighbour : facet(f)) {
+      if (least <= enough || std::ranges::find(seen, neighbour) != seen.end()) continue;
+      seen.push_back(neighbour);
+      least = std::min(least, to_facets_at(neighbour, was));
+    }
   return least;
 }
 
 double BoundaryDeviation::around(Vertex v, double enough, double most) const {
   double greatest = 0;
+  std::vector<Vertex> seen;  // v belongs to all facets, its neighbours to two or more
   for (std::int32_t f : facets_.at(v)) {
     greatest = std::max(greatest, from_facet(f, enough));
     if (greatest > most) return greatest;
-    for (Vertex corner : facet(f))
-      if (has_moved(corner)) greatest = std::max(greatest, from_input_vertex(corner, enough));
+    for (Vertex corner : facet(f)) {
+      if (!has_moved(corner) || std::ranges::find(seen, corner) != seen.end()) continue;
+      seen.push_back(corner);
+      greatest = std::max(greatest, from_input_vertex(corner, enough));
+    }
     if (greatest > most) return greatest;
   }
   return greatest;

@@ -112,13 +112,21 @@ InputSurface::Place InputSurface::place_of(Vertex v) const {
 InputSurface::Nearest InputSurface::descend(Vertex v, const Vec3& to, bool within_patch, double enough) const {
   const std::int32_t start = triangles_at(v)[0];
   Nearest best{start, {}, std::numeric_limits<double>::infinity()};
+  // Neighbours share most of their triangles, and none becomes nearer when it is looked at again.
+  std::array<Vertex, 3 * longest_walk + 1> seen;
+  std::size_t seen_count = 0;
   // Whether a triangle at `w` is nearer.
   auto look_at = [&](Vertex w) {
     bool nearer = false;
+    const auto seen_end = seen.begin() + static_cast<std::ptrdiff_t>(seen_count);
+    if (std::find(seen.begin(), seen_end, w) != seen_end) return nearer;
+    seen[seen_count++] = w;
     for (std::int32_t t : triangles_at(w)) {
       if (within_patch && patch_[t] != patch_[start]) continue;
       const auto& [a, b, c] = mesh_.triangles[t];
-      const Vec3 at = nearest_on_triangle({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, to);
+      const std::array triangle{mesh_.points[a], mesh_.points[b], mesh_.points[c]};
+      if (is_surely_farther(triangle, to, best.distance_squared)) continue;
+      const Vec3 at = nearest_on_triangle(triangle, to);
       const double distance = norm_squared(at - to);
       if (distance >= best.distance_squared) continue;
       best = {t, at, distance};

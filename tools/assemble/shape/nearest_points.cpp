@@ -25,4 +25,18 @@ Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to) {
   return best;
 }
 
+// The plane at right angles to the triangle through an edge has the triangle on one side. The rounding of these
+// products is well below the margin.
+bool is_surely_farther(const std::array<Vec3, 3>& triangle, const Vec3& to, double squared) {
+  constexpr double margin = 1e-12;
+  const auto& [a, b, c] = triangle;
+  const Vec3 normal = cross(b - a, c - a);
+  const double length = norm_squared(normal);
+  const auto is_far_beyond = [&](const Vec3& p, const Vec3& q) {
+    const double beyond = dot(cross(q - p, to - p), normal);
+    return beyond < 0 && beyond * beyond > (squared + margin * norm_squared(to - p)) * (length * norm_squared(q - p));
+  };
+  return is_far_beyond(a, b) || is_far_beyond(b, c) || is_far_beyond(c, a);
+}
+
 }  // namespace hexpipe::assemble::shape

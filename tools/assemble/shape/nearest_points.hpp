@@ -14,6 +14,10 @@ namespace hexpipe::assemble::shape {
 Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& to);
 Vec3 nearest_on_triangle(const std::array<Vec3, 3>& triangle, const Vec3& to);
 
+// True only if no point of the triangle is as near to `to` as that, a squared distance. Quicker than to find the
+// nearest, and true of most triangles that are not the nearest of several.
+bool is_surely_farther(const std::array<Vec3, 3>& triangle, const Vec3& to, double squared);
+
 // A tree of things in these boxes, for nearest_in().
 inline BoxTree tree_of(const std::vector<Box>& boxes) {
   return BoxTree(boxes, std::vector<double>(boxes.size()));
