@@ -151,6 +151,7 @@ PYTHON
 }
 
 @test "--mend finite-volumes leaves less that checkMesh counts as wrong; it is the default for OpenFOAM alone" {
+  optimized_only "the unit tests mend random meshes"
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 3 | findhex | buildgraph | initsol --iterations 20000 -o part.tar
   assemble part.tar --stats default.json -o default.vtu

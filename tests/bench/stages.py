@@ -11,6 +11,7 @@ MOST_SECONDS of the processor or MOST_BY_THE_CLOCK for its number of tets, or MO
 """
 import argparse
 import json
+import math
 import os
 import subprocess
 import sys
@@ -34,16 +35,18 @@ def stats_of(path):
 
 
 def size_for(model, tets):
-    """Tets are nearly in proportion to the volume over the cube of the size, but for coarse meshes: from meshes of a tenth on,
-    until the number is off by a tenth at most."""
-    size = TRIAL_SIZE
-    for wanted in (tets / 10, tets, tets, tets):
+    """Tets are nearly in proportion to the volume over the cube of the size, but for coarse meshes: from a mesh of a tenth on,
+    until the number is off by a tenth at most, or the nearest of six."""
+    size, sizes = TRIAL_SIZE, {}
+    for wanted in [tets / 10] + 6 * [tets]:
         subprocess.run([meshes.tool("tetmesh"), "-q", model, "--size", str(size), "--stats", "trial.json", "-o", "trial.tar"], check=True)
         trial = stats_of("trial.json")
-        if wanted == tets and abs(trial["tets"] / tets - 1) < 0.1:
-            return trial["size"]
+        if wanted == tets:
+            sizes[abs(math.log(trial["tets"] / tets))] = trial["size"]
+            if min(sizes) < 0.1:
+                break
         size = trial["size"] * (trial["tets"] / wanted) ** (1 / 3)
-    return size
+    return sizes[min(sizes)]
 
 
 def measure(folder, name, model, size, threads):
