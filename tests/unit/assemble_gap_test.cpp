@@ -730,7 +730,7 @@ TEST(MendRefused, OneVertexComesForSoManyChosenCells) {
 
 TEST(MendRefused, NothingButTheCellsBetweenHexesChanges) {
   std::int64_t changed = 0, before_all = 0, after_all = 0;
-  constexpr std::int64_t seeds = hexpipe::testing::random_cases(300);
+  constexpr std::int64_t seeds = hexpipe::testing::random_cases(700);  // the first hundred leave 80 %
   for (std::int64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     ConformingScene scene(seed, Random(seed));
@@ -755,7 +755,7 @@ TEST(MendRefused, NothingButTheCellsBetweenHexesChanges) {
     changed += counts.any();
   }
   EXPECT_GT(changed, seeds / 3);
-  EXPECT_LT(10 * after_all, 9 * before_all);
+  EXPECT_LT(5 * after_all, 4 * before_all);
 }
 
 // The last step is all or nothing.

@@ -56,34 +56,35 @@ FaceShape shape_of(const FacesOf& cell, std::size_t face) {
   return face_shape(std::span<const Vec3>(corners.at).first(corners.count));
 }
 
-Facet facet_of(const FacesOf& cell, std::size_t face) {
-  std::array<Vertex, 4> own{};
-  std::size_t count = 0;
-  for (const std::uint8_t i : corners_of_face(cell.kind, face)) own[count++] = cell.corners[i];
-  return Facet::of(std::span<const Vertex>(own).first(count));
+std::size_t face_count(CellKind kind) {
+  return with_topology(
+      kind, [](auto topology) { return decltype(topology)::triangles.size() + decltype(topology)::quads.size(); });
 }
 
-Side side_of(std::array<Vertex, 4> corners, std::size_t cell, std::uint8_t face) {
-  const VertexKey<4> key = key_of(corners);
+// In their order around the face; the fourth of a triangle is no_index.
+std::array<Vertex, 4> vertices_of_face(CellKind kind, std::span<const Vertex> corners, std::size_t face) {
+  std::array<Vertex, 4> own{no_index, no_index, no_index, no_index};
+  std::size_t count = 0;
+  for (const std::uint8_t i : corners_of_face(kind, face)) own[count++] = corners[i];
+  return own;
+}
+
+Facet facet_of(CellKind kind, std::span<const Vertex> corners, std::size_t face) {
+  const std::array<Vertex, 4> own = vertices_of_face(kind, corners, face);
+  return Facet::of(std::span(own).first(corners_of_face(kind, face).size()));
+}
+
+Side side_of(CellKind kind, std::span<const Vertex> corners, std::size_t cell, std::size_t face) {
+  const VertexKey<4> key = key_of(vertices_of_face(kind, corners, face));
   const auto pair = [&](std::size_t i) {
     return std::uint64_t{static_cast<std::uint32_t>(key[i])} << 32 | static_cast<std::uint32_t>(key[i + 1]);
   };
-  return {pair(0), pair(2), static_cast<std::uint32_t>(cell), face};
+  return {pair(0), pair(2), static_cast<std::uint32_t>(cell), static_cast<std::uint8_t>(face)};
 }
 
 void append_sides(const FacesOf& cell, std::size_t number, std::vector<Side>& sides) {
-  std::uint8_t face = 0;
-  auto each = [&](const auto& facets) {
-    for (const auto& facet : facets) {
-      std::array<Vertex, 4> own{no_index, no_index, no_index, no_index};
-      for (std::size_t i = 0; i < facet.size(); ++i) own[i] = cell.corners[facet[i]];
-      sides.push_back(side_of(own, number, face++));
-    }
-  };
-  with_topology(cell.kind, [&](auto topology) {
-    each(decltype(topology)::triangles);
-    each(decltype(topology)::quads);
-  });
+  for (std::size_t face = 0; face < face_count(cell.kind); ++face)
+    sides.push_back(side_of(cell.kind, cell.corners, number, face));
 }
 
 bool has_facet(CellKind kind, std::span<const Vertex> corners, const Facet& facet) {
@@ -177,7 +178,7 @@ FaceGraph::FaceGraph(const GapMesh& gap, std::span<const FacesOf> cells, std::sp
       continue;
     }
     if (!has_span_cost(gap, cell.kind, cell.is_kept)) continue;
-    if (const auto beyond = centre_behind(gap, facet_of(cell, side.face).reversed(), instead_of)) {
+    if (const auto beyond = centre_behind(gap, facet_of(cell.kind, cell.corners, side.face).reversed(), instead_of)) {
       if (!cell.is_kept) faces_.push_back({side.cell, side.face, none, *beyond});
       inner_[side.cell][side.face] = 1;
     }
@@ -232,11 +233,6 @@ double cost_of_faces(const GapMesh& gap, std::span<const GapCell> cells, std::sp
 
 namespace {
 
-std::size_t face_count(CellKind kind) {
-  return with_topology(
-      kind, [](auto topology) { return decltype(topology)::triangles.size() + decltype(topology)::quads.size(); });
-}
-
 // What each face of a cell that is there costs, found once as long as nothing around it changes.
 const FaceCost& face_costs_of(const GapMesh& gap, GapIndex c) {
   FaceCost& known = gap.face_cost_of(c);
@@ -247,7 +243,7 @@ const FaceCost& face_costs_of(const GapMesh& gap, GapIndex c) {
   FaceCost costs{.age = age};
   InnerFaces inner{};
   for (std::size_t face = 0; face < face_count(cell.kind); ++face)
-    if (const auto beyond = centre_behind(gap, facet_of(cell, face).reversed(), std::span(&c, 1))) {
+    if (const auto beyond = centre_behind(gap, facet_of(cell.kind, cell.corners, face).reversed(), std::span(&c, 1))) {
       costs.of_faces[face] = cost_between(gap, cell, face, centre, *beyond);
       inner[face] = 1;
     }
@@ -263,14 +259,11 @@ void append_costly_sides(const GapMesh& gap, std::span<const GapIndex> cells, st
   const GapCell& cell = gap.cell(cells[i]);
   for (std::size_t face = 0; face < face_count(cell.kind); ++face) {
     if (costs.of_faces[face] == 0) continue;
-    std::array<Vertex, 4> own{no_index, no_index, no_index, no_index};
-    std::size_t count = 0;
-    for (const std::uint8_t k : corners_of_face(cell.kind, face)) own[count++] = cell.corners[k];
-    const Facet beyond = Facet::of(std::span<const Vertex>(own).first(count)).reversed();
+    const Facet beyond = facet_of(cell.kind, cell.vertices(), face).reversed();
     const bool is_counted = std::ranges::any_of(cells.first(i), [&](GapIndex other) {
       return has_facet(gap.cell(other).kind, gap.cell(other).vertices(), beyond);
     });
-    if (!is_counted) sides.push_back(side_of(own, i, static_cast<std::uint8_t>(face)));
+    if (!is_counted) sides.push_back(side_of(cell.kind, cell.vertices(), i, face));
   }
 }
 
