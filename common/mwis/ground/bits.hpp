@@ -41,6 +41,18 @@ constexpr std::size_t count(const Word* set, std::size_t words) {
   return sum;
 }
 
+// The number of members from begin to end.
+constexpr std::size_t count_between(const Word* set, std::size_t begin, std::size_t end) {
+  std::size_t sum = 0;
+  for (std::size_t w = begin / 64; 64 * w < end; ++w) {
+    Word word = set[w];
+    if (w == begin / 64) word &= ~Word{0} << (begin % 64);
+    if (end < 64 * (w + 1)) word &= ~(~Word{0} << (end % 64));
+    sum += static_cast<std::size_t>(std::popcount(word));
+  }
+  return sum;
+}
+
 // Every member of `part` is a member of `set`.
 constexpr bool includes(const Word* set, const Word* part, std::size_t words) {
   for (std::size_t w = 0; w < words; ++w)

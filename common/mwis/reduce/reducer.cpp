@@ -201,29 +201,31 @@ void Reducer::decide(std::int32_t v) {
     count_look();
     return set_queue_.push(v);
   }
+  sort_around();
   build_rows();
   if (bound_without(nullptr, weight)) return take(v);
   if (!drop_replaceable(v)) set_queue_.push(v);
 }
 
-// Whether the bounds of decide can hold: a bound is no less than the heaviest vertex that it is for. This tells most
-// vertices apart by a few searches in lists, and rows take a hundred times as long.
+// Whether the bounds of decide can hold: a bound is no less than the heaviest vertex that it is for. So a neighbour can
+// be dropped only if all that are too heavy to stay beside it are in conflict with it. The few heaviest ones tell this
+// of most neighbours, while rows, and the order that they need, take ten times as long.
 bool Reducer::may_decide(std::int64_t weight) {
-  if (around_.empty() || graph_.weight(around_.front()) <= weight) return true;
-  for (auto u = around_.rbegin(); u != around_.rend() && graph_.weight(*u) <= weight; ++u) {
-    const auto neighbours = graph_.neighbours_of(*u);
-    const std::int64_t allowance = weight - graph_.weight(*u);
-    const auto first_left = std::ranges::find_if(around_, [&](std::int32_t x) {
-      return graph_.weight(x) <= allowance || (x != *u && !std::ranges::binary_search(neighbours, x));
-    });
-    if (first_left == around_.end() || graph_.weight(*first_left) <= allowance) return true;
+  open_.clear();
+  for (const auto& [of_one, u] : by_weight_)
+    if (of_one <= weight) open_.push_back({of_one, u});
+  for (auto heaviest = by_weight_.begin(); heaviest != by_weight_.end(); ++heaviest) {
+    std::iter_swap(heaviest, std::ranges::max_element(heaviest, by_weight_.end(), {}, &Weighted::weight));
+    const auto [heavy, x] = *heaviest;
+    if (heavy <= weight && heaviest == by_weight_.begin()) return true;
+    const auto has_room = [&](const Weighted& u) { return heavy <= weight - u.weight; };
+    if (std::ranges::any_of(open_, has_room)) return true;
+    const auto neighbours = graph_.neighbours_of(x);
+    for (const std::int32_t u : neighbours) places_[u] = first_place;
+    std::erase_if(open_, [&](const Weighted& u) { return u.vertex != x && places_[u.vertex] == nowhere; });
+    for (const std::int32_t u : neighbours) places_[u] = nowhere;
+    if (open_.empty()) return false;
   }
-  return false;
-}
-
-bool Reducer::look_around(std::int32_t v) {
-  if (!gather_around(v)) return false;
-  build_rows();
   return true;
 }
 
@@ -231,30 +233,48 @@ bool Reducer::look_around(std::int32_t v) {
 bool Reducer::gather_around(std::int32_t v) {
   const auto neighbours = graph_.neighbours_of(v);
   if (neighbours.size() > largest_neighbourhood) return false;
-  around_.assign(neighbours.begin(), neighbours.end());
-  std::ranges::sort(around_, [&](std::int32_t a, std::int32_t b) {
-    return graph_.weight(a) != graph_.weight(b) ? graph_.weight(a) > graph_.weight(b) : a < b;
-  });
+  by_weight_.clear();
+  for (const std::int32_t u : neighbours) by_weight_.push_back({graph_.weight(u), u});
   return true;
+}
+
+void Reducer::sort_around() {
+  std::ranges::sort(by_weight_, [](const Weighted& a, const Weighted& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.vertex < b.vertex;
+  });
+  around_.clear();
+  for (const Weighted& u : by_weight_) around_.push_back(u.vertex);
 }
 
 // The same whether rows are built or not, so that a budget decides as many vertices.
 void Reducer::count_look() {
   work_ += work_a_look;
-  for (const std::int32_t u : around_) work_ += work_a_neighbour * static_cast<double>(graph_.neighbours_of(u).size());
+  for (const Weighted& u : by_weight_)
+    work_ += work_a_neighbour * static_cast<double>(graph_.neighbours_of(u.vertex).size());
 }
 
 void Reducer::build_rows() {
+  build_rows_while([](std::size_t) { return true; });
+}
+
+// Calls wanted(i) after row i was built, and ends with false where it does.
+template <class Wanted>
+bool Reducer::build_rows_while(Wanted&& wanted) {
   count_look();
   local_.reset(around_.size());
   set_.assign(local_.words(), 0);
   excluded_.assign(local_.words(), 0);
-  for (std::size_t i = 0; i < around_.size(); ++i) places_[around_[i]] = place_of(i);
   for (std::size_t i = 0; i < around_.size(); ++i) {
-    local_.set_weight(i, graph_.weight(around_[i]));
+    places_[around_[i]] = place_of(i);
+    local_.set_weight(i, by_weight_[i].weight);
+  }
+  bool all = true;
+  for (std::size_t i = 0; i < around_.size() && all; ++i) {
     build_row(around_[i], local_.row(i));
+    all = wanted(i);
   }
   for (const std::int32_t u : around_) places_[u] = nowhere;
+  return all;
 }
 
 // The row gets the neighbours of v that have places. With one word, a vertex that is nowhere is shifted in as a 0. With
@@ -309,13 +329,32 @@ void Reducer::decide_by_sets(std::int32_t v) {
 }
 
 bool Reducer::find_sets(std::int32_t v) {
-  if (static_cast<std::size_t>(graph_.neighbours_of(v).size()) > largest_folded || !look_around(v)) return false;
+  if (static_cast<std::size_t>(graph_.neighbours_of(v).size()) > largest_folded || !gather_around(v)) return false;
+  sort_around();
   const std::size_t most = around_.size() + most_added;
+  if (!build_rows_of_few_sets(graph_.weight(v), most)) {
+    work_ += work_a_set * static_cast<double>(most);
+    return false;
+  }
   const bool found = heavy_sets_.find(local_, graph_.weight(v), most, static_cast<std::int64_t>(2 * most));
   work_ += work_a_set * static_cast<double>(heavy_sets_.size());
   if (!found) return false;
   collect_sets();
   return true;
+}
+
+// False, before most rows are built, if there are more than `most` sets heavier than `limit` that have one or two
+// vertices.
+bool Reducer::build_rows_of_few_sets(std::int64_t limit, std::size_t most) {
+  std::size_t sets = 0, partners = around_.size();  // those not too light for the vertex come first
+  return build_rows_while([&](std::size_t i) {
+    const std::int64_t weight = local_.weight(i);
+    if (weight > limit) ++sets;
+    while (partners > 0 && weight + local_.weight(partners - 1) <= limit) --partners;
+    if (partners <= i + 1) return true;
+    sets += partners - i - 1 - bits::count_between(local_.row(i), i + 1, partners);
+    return sets <= most;
+  });
 }
 
 bool Reducer::drop_outside_sets() {

@@ -77,10 +77,13 @@ class Reducer {
 
   void decide(std::int32_t v);
   bool may_decide(std::int64_t weight);
-  bool look_around(std::int32_t v);
   bool gather_around(std::int32_t v);
+  void sort_around();
   void count_look();
   void build_rows();
+  template <class Wanted>
+  bool build_rows_while(Wanted&& wanted);
+  bool build_rows_of_few_sets(std::int64_t limit, std::size_t most);
   void build_row(std::int32_t v, bits::Word* row);
   bool bound_without(const bits::Word* excluded, std::int64_t limit);
   bool drop_replaceable(std::int32_t v);
@@ -112,7 +115,15 @@ class Reducer {
   bool trying_ = false;
   std::vector<Growth> growth_before_;  // the current try
 
-  // The neighbourhood that is being examined, the heaviest vertex first, as a small graph.
+  struct Weighted {
+    std::int64_t weight;
+    std::int32_t vertex;
+  };
+
+  // The neighbourhood that is being examined, at first in any order.
+  std::vector<Weighted> by_weight_;
+  std::vector<Weighted> open_;  // neighbours that may still be dropped
+  // The same, the heaviest vertex first, as a small graph.
   std::vector<std::int32_t> around_;
   std::vector<std::int32_t> places_;  // in around_, while local_ is built
   ground::DenseGraph local_;
