@@ -96,6 +96,13 @@ void expect_memory(std::uint64_t count, std::uint64_t bytes_each, std::string_vi
                       readable(static_cast<double>(left)));
 }
 
+void reuse_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // no more is allowed
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
+#endif
+}
+
 void FreedMemory::add(std::size_t bytes) {
   // malloc_trim walks over the allocator's lists; that is well worth this much memory.
   constexpr std::size_t enough = 2 << 20;

@@ -25,6 +25,10 @@ std::uint64_t left_in_control_group(const std::string& folder);
 // Throws DataError when `count` items do not fit into the memory left; `where` begins the message.
 void expect_memory(std::uint64_t count, std::uint64_t bytes_each, std::string_view where);
 
+// Keeps arrays of up to 32 MiB that were freed, 64 MiB in all, for the next ones. The allocator would give those of
+// 128 KiB and more back to the system at once, and the next one would pay for its pages again.
+void reuse_freed_memory();
+
 // Returns memory that was freed in small pieces to the system. The allocator would keep it for later.
 class FreedMemory {
  public:
