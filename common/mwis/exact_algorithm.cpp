@@ -1,9 +1,15 @@
 #include "common/mwis/exact_algorithm.hpp"
 
 #include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "common/mwis/bounds/clique_dual.hpp"
 #include "common/mwis/exact/historical/searches_on_bits.hpp"
+#include "common/mwis/exact/search_on_bits.hpp"
+#include "common/mwis/ground/search_budget.hpp"
 #ifdef HEXPIPE_WITH_CLP
 #include "common/mwis/exact/packing_program.hpp"
 #endif
@@ -15,6 +21,13 @@ bool is_on_bits(ExactAlgorithm algorithm) {
   return algorithm != ExactAlgorithm::branch_and_reduce && algorithm != ExactAlgorithm::branch_and_cut;
 }
 
+// The shares of the time left that the first of both takes: of that on bits, and of that by reductions.
+constexpr double share_on_bits = 0.7, share_by_reductions = 0.75;
+
+Deadline share_of(double share, const Deadline& deadline) {
+  return std::isfinite(deadline.remaining()) ? Deadline(share * deadline.remaining()) : Deadline();
+}
+
 exact::ExactResult search_by_reductions(const graph::ConflictGraph& graph, std::int64_t weight,
                                         ExactAlgorithm algorithm, const Deadline& deadline) {
   exact::BranchAndReduce search(relaxation_of(algorithm), deadline);
@@ -24,6 +37,38 @@ exact::ExactResult search_by_reductions(const graph::ConflictGraph& graph, std::
   result.bound = search.bound();
   result.nodes = search.nodes();
   return result;
+}
+
+// Adds what a search on bits finds and proves.
+void search_on_bits(const graph::ConflictGraph& graph, std::int64_t weight, const Deadline& deadline,
+                    exact::ExactResult& result) {
+  if (result.better) weight = graph::total_weight(*result.better, graph);
+  ground::SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline);
+  if (auto better = exact::search_on_bits(graph, weight, budget)) {
+    weight = graph::total_weight(*better, graph);
+    result.better = std::move(better);
+  }
+  result.nodes += budget.spent();
+  result.complete = !budget.exhausted();
+  if (result.complete) result.bound = weight;
+}
+
+// In turns: what is less likely to prove a graph takes the rest of the time.
+exact::ExactResult search_dense(const graph::ConflictGraph& graph, std::int64_t weight, ExactAlgorithm algorithm,
+                                const Deadline& deadline) {
+  exact::ExactResult result;
+  const bool bits_first = exact::is_very_dense(graph);
+  if (bits_first) {
+    search_on_bits(graph, weight, share_of(share_on_bits, deadline), result);
+    if (result.complete) return result;
+    if (result.better) weight = graph::total_weight(*result.better, graph);
+  }
+  exact::ExactResult reduced =
+      search_by_reductions(graph, weight, algorithm, bits_first ? deadline : share_of(share_by_reductions, deadline));
+  if (!reduced.better) reduced.better = std::move(result.better);
+  reduced.nodes += result.nodes;
+  if (!bits_first && !reduced.complete) search_on_bits(graph, weight, deadline, reduced);
+  return reduced;
 }
 
 }  // namespace
@@ -73,7 +118,8 @@ exact::ExactResult solve_exactly(const graph::ConflictGraph& graph, std::int64_t
     case ExactAlgorithm::branch_and_cut:
       break;
   }
-  return search_by_reductions(graph, weight, algorithm, deadline);
+  return exact::is_dense(graph) ? search_dense(graph, weight, algorithm, deadline)
+                                : search_by_reductions(graph, weight, algorithm, deadline);
 }
 
 }  // namespace hexpipe::mwis

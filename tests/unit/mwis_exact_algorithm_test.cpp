@@ -116,6 +116,21 @@ TEST(ExactAlgorithms, AgreeOnLargerGraphs) {
   }
 }
 
+// As the cliques of brock200_4, whose relaxation leaves a third of the weight open.
+TEST(ExactAlgorithms, ProveDenseGraphsInAMoment) {
+  Random random(8);
+  for (const double share : {0.2, 0.35}) {
+    const ConflictGraph graph = hexpipe::testing::random_graph(200, share, 200, random);
+    const ExactResult expected = solve_exactly(graph, -1, ExactAlgorithm::clique_cover, no_deadline);
+    for (const char* name : {"branch-and-reduce", "branch-and-cut"}) {
+      if (!exact_algorithms().contains(name)) continue;
+      const ExactResult result = solve_exactly(graph, -1, exact_algorithms().at(name), Deadline(20));
+      ASSERT_TRUE(result.complete && result.better) << name << ", share " << share;
+      EXPECT_EQ(total_weight(*result.better, graph), total_weight(*expected.better, graph)) << name;
+    }
+  }
+}
+
 TEST(ExactAlgorithms, RefuseWhatTheyCannotHold) {
   ConflictGraph large;
   large.weights.assign(5000, 1);

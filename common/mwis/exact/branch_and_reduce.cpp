@@ -7,10 +7,16 @@
 #include <vector>
 
 #include "common/graph/conflict_graph.hpp"
+#include "common/mwis/exact/search_on_bits.hpp"
 #include "common/mwis/reduce/kernel.hpp"
 
 namespace hexpipe::mwis::exact {
 namespace {
+
+// Very dense components of more vertices are searched on bits before they are relaxed, up to so many nodes: about as
+// long as that takes.
+constexpr std::int32_t least_on_bits = 100;
+constexpr std::int64_t nodes_on_bits = 1 << 14;
 
 graph::IndependentSet renumbered(const graph::IndependentSet& set, const std::vector<std::int32_t>& vertices) {
   graph::IndependentSet result;
@@ -85,10 +91,11 @@ std::vector<BranchAndReduce::Component> BranchAndReduce::bound_components(const 
     Component& component = components.emplace_back();
     component.graph = graph::induced_subgraph(graph, vertices);
     component.vertices = std::move(vertices);
+    const std::int64_t lacking = last ? needed - others : 0;
     if (component.graph.vertex_count() <= small_)
       solve_small(component);
-    else
-      component.relaxation = relax_(component.graph, last ? needed - others : 0, depth, deadline_);
+    else if (!solve_dense(component, lacking))
+      component.relaxation = relax_(component.graph, lacking, depth, deadline_);
     others += component.relaxation.bound;
   }
   return components;
@@ -145,6 +152,20 @@ void BranchAndReduce::solve_small(Component& component) {
   bits::for_each(chosen.data(), chosen.size(), [&](std::size_t v) { set.push_back(static_cast<std::int32_t>(v)); });
   component.relaxation.bound = complete ? graph::total_weight(set, graph)
                                         : std::reduce(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
+}
+
+// False if the component is not very dense, or if this takes too long.
+bool BranchAndReduce::solve_dense(Component& component, std::int64_t needed) {
+  const graph::ConflictGraph& graph = component.graph;
+  if (graph.vertex_count() <= least_on_bits || !is_very_dense(graph)) return false;
+  needed = std::max<std::int64_t>(needed, 0);
+  ground::SearchBudget budget(nodes_on_bits, &deadline_);
+  std::optional<graph::IndependentSet> heaviest = search_on_bits(graph, needed, budget);
+  if (budget.exhausted()) return false;
+  // If there is none that is heavy enough, this bound ends the node.
+  component.relaxation.bound = heaviest ? graph::total_weight(*heaviest, graph) : needed;
+  component.optimum = heaviest ? std::move(*heaviest) : graph::IndependentSet();
+  return true;
 }
 
 // Branches: with a vertex, then without it.

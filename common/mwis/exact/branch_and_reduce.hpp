@@ -1,8 +1,8 @@
 #pragma once
 // The heaviest independent set of a large sparse graph, with proof: branch and reduce (Lamm et al. 2019). A node is
 // reduced and cut into connected components. A relaxation bounds each component, and its reduced costs decide more
-// vertices (Verhetsel 2017, 3.2). Branch and bound solves small ones. Unlike there, each component is bounded by what
-// the others may still reach.
+// vertices (Verhetsel 2017, 3.2). Branch and bound on bits solves small ones, and tries dense ones first. Unlike there,
+// each component is bounded by what the others may still reach.
 
 #include <cstdint>
 #include <optional>
@@ -48,6 +48,7 @@ class BranchAndReduce {
                                                         int depth);
   std::optional<graph::IndependentSet> solve_component(const Component& component, std::int64_t needed, int depth);
   void solve_small(Component& component);
+  bool solve_dense(Component& component, std::int64_t needed);
   std::optional<graph::IndependentSet> branch(const Component& component, std::int64_t needed, int depth);
   bool stop();
 
