@@ -666,6 +666,83 @@ TEST(FewerCells, AHexGivesWayWhereACellBesideItStaysPoor) {
   }
 }
 
+// Places of the first vertices, and the cells of the gap.
+std::pair<std::vector<Vec3>, std::set<std::vector<Vertex>>> state_of(const GapMesh& gap, std::size_t vertices) {
+  std::set<std::vector<Vertex>> cells;
+  for (const GapIndex c : all_cells(gap)) cells.emplace(gap.cell(c).vertices().begin(), gap.cell(c).vertices().end());
+  return {{gap.points().begin(), gap.points().begin() + static_cast<std::ptrdiff_t>(vertices)}, cells};
+}
+
+std::int64_t count_poor(const GapMesh& gap) {
+  return std::ranges::count_if(all_cells(gap), [&](GapIndex c) { return gap.cell(c).quality < least_wanted; });
+}
+
+// A flat lattice with a part of its cubes chosen: many cells are poor.
+struct FlatScene {
+  testing::Lattice lattice;
+  SurfaceTags tags;
+  HybridMesh hybrid;
+
+  static testing::Lattice lattice_of(double thickness, Random& random) {
+    auto lattice = testing::make_lattice(2);
+    testing::jitter(lattice, 0.2, random);
+    for (Vec3& p : lattice.mesh.points) p.z *= thickness;
+    testing::tag_boundary(lattice.mesh);
+    return lattice;
+  }
+  FlatScene(double thickness, Random random)
+      : lattice(lattice_of(thickness, random)),
+        tags(lattice.mesh),
+        hybrid(choice::Selection(lattice.mesh, tags, lattice.cubes,
+                                 testing::candidates_in(testing::random_choice(lattice, 0.7, random)), {})
+                   .take_mesh()) {
+    conform::make_conforming(hybrid, tags, lattice.cubes, 1e-4);
+  }
+};
+
+// What neither a new vertex in a small room nor a hex that gives way mends. If not all of it can be mended, nothing is.
+TEST(OpenWide, LeavesNoPoorCellOrEverythingAsItWas) {
+  int mended = 0, left = 0;
+  for (const double thickness : {0.1, 0.15, 0.2})
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+      SCOPED_TRACE(seed);
+      FlatScene scene(thickness, Random(seed));
+      const double volume = Census(scene.hybrid).volume;
+      GapMesh gap(scene.hybrid, scene.tags, {});
+      if (!gap.is_valid()) continue;
+      for (int round = 0; round < 2; ++round) mend(gap, false), open_hexes(gap);
+      if (count_poor(gap) == 0) continue;
+      const std::size_t vertices = gap.vertex_count();
+      const auto before = state_of(gap, vertices);
+      const Opened opened = open_wide(gap);
+      if (opened.inserted == 0) {
+        EXPECT_EQ(state_of(gap, vertices), before);
+        EXPECT_TRUE(opened.chosen.empty());
+        ++left;
+        continue;
+      }
+      EXPECT_EQ(count_poor(gap), 0);
+      gap.write_back();
+      for (const CellIndex c : opened.chosen) EXPECT_FALSE(scene.hybrid.cell(c).alive);
+      const Census after(scene.hybrid);
+      EXPECT_TRUE(after.valid);
+      EXPECT_FALSE(after.crowded);
+      EXPECT_NEAR(after.volume, volume, 1e-12);
+      EXPECT_TRUE(has_tagged_skin(after, scene.tags));
+      ++mended;
+    }
+  EXPECT_GT(mended, 0);
+  EXPECT_GT(left, 0);
+}
+
+TEST(OpenWide, IsTheLastStepOfMending) {
+  FlatScene scene(0.15, Random(6));
+  GapMesh gap(scene.hybrid, scene.tags, {});
+  ASSERT_TRUE(gap.is_valid());
+  mend(gap, true);
+  EXPECT_EQ(count_poor(gap), 0);
+}
+
 // A cell that cannot rise because those beside it are barely good enough rises with them.
 TEST(Patch, APoorCellRisesWhereItsNeighboursYield) {
   int helped = 0;
@@ -690,6 +767,17 @@ TEST(Patch, APoorCellRisesWhereItsNeighboursYield) {
     }
   }
   EXPECT_GT(helped, 0);
+}
+
+// Its way ends just before it is good enough if each step has to raise it much.
+TEST(Patch, APoorCellRisesInSmallSteps) {
+  ConformingScene scene(1679, Random(1679));
+  const GapMesh gap(scene.hybrid, scene.tags, {});
+  const GapIndex poor(84);
+  ASSERT_LT(gap.cell(poor).quality, least_quality);
+  Patch patch(gap);
+  patch.take(gap.inner_vertices_around(poor), {});
+  EXPECT_TRUE(patch.raise_with_neighbours(0.2, least_quality, 10));
 }
 
 std::int64_t count_refused(HybridMesh& mesh, const SurfaceTags& tags) {

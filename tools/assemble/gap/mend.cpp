@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "tools/assemble/gap/face_costs.hpp"
@@ -18,7 +19,7 @@ namespace {
 constexpr int most_mending_passes = 3;
 // Few cells are poor; the third round mended 5 and the fourth none on most models.
 constexpr int most_rounds = 3;
-constexpr int rounds_of_moves = 5;
+constexpr int rounds_of_moves = 5, rounds_with_neighbours = 10, rounds_of_settling = 2;
 // How good neighbours of a poor cell become so that it rises. With 0.15 a tet of 0.118 on bridge stays where it is.
 constexpr double goal_of_neighbours = 0.2;
 
@@ -76,8 +77,11 @@ bool Mender::raise(const std::vector<Vertex>& vertices) {
 
 bool Mender::raise_with_neighbours(const std::vector<Vertex>& vertices) {
   patch_.take(vertices, {});
-  if (!patch_.raise_with_neighbours(goal_of_neighbours, least_quality, rounds_of_moves)) return false;
+  if (!patch_.raise_with_neighbours(goal_of_neighbours, least_quality, rounds_with_neighbours)) return false;
   patch_.carry_out(gap_, {});
+  // Now that no cell there is poor, vertices go where the objective is less.
+  patch_.take(vertices, {});
+  if (patch_.lower_cost(rounds_of_settling, vertices.size()) > 0) patch_.carry_out(gap_, {});
   return true;
 }
 
@@ -115,16 +119,25 @@ bool Mender::mend(GapIndex c) {
 MendCounts mend(GapMesh& gap, bool may_open) {
   Mender mender(gap);
   MendCounts counts;
+  const auto count = [&](std::int64_t mended, const Opened& opened) {
+    counts.mended += mended + opened.inserted;
+    counts.opened.insert(counts.opened.end(), opened.chosen.begin(), opened.chosen.end());
+  };
   for (int round = 0; round < most_rounds; ++round) {
-    std::int64_t mended = mender.run();
+    const std::int64_t mended = mender.run();
     Opened opened;
     mender.opened_from(gap.cell_count());
     if (may_open) opened = open_hexes(gap);
-    mended += opened.inserted;
-    counts.mended += mended;
-    counts.opened.insert(counts.opened.end(), opened.chosen.begin(), opened.chosen.end());
-    if (mended == 0 && opened.chosen.empty()) break;
+    count(mended, opened);
+    if (mended + opened.inserted == 0 && opened.chosen.empty()) break;
   }
+  if (!may_open) return counts;
+  std::vector<std::uint32_t> ages = ages_of_vertices(gap);
+  const Opened wide = open_wide(gap);
+  if (wide.inserted == 0) return counts;
+  count(mender.run(), wide);
+  const RefillCounts refilled = refill_rooms_since(gap, std::move(ages));
+  counts.mended += refilled.vertices + refilled.edges + refilled.poor;
   return counts;
 }
 

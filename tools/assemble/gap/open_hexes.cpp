@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/mesh/cell_topology.hpp"
@@ -17,6 +18,7 @@
 #include "tools/assemble/gap/patch.hpp"
 #include "tools/assemble/gap/refill.hpp"
 #include "tools/assemble/gap/skin.hpp"
+#include "tools/assemble/gap/wide_rooms.hpp"
 
 namespace hexpipe::assemble::gap {
 namespace {
@@ -28,6 +30,10 @@ constexpr std::size_t chosen_per_refused = 1000;
 // How many chosen cells around a poor one are tried, those with the most vertices of it first. Later ones seldom help.
 constexpr std::size_t most_tries = 8, most_tries_of_two = 4;
 constexpr int rounds_to_raise = 20;
+// A new vertex that no place is better for is not tried: vertices around it cannot make that much room.
+constexpr double worth_raising = 0.03;
+// With more failures nobody hopes for a mesh without poor cells any more: meshes with many would take long.
+constexpr std::size_t most_failures = 2;
 
 // What filling a room has changed, so that it can be undone as long as nothing follows.
 struct Filled {
@@ -38,17 +44,26 @@ struct Filled {
   std::vector<Vec3> places;  // before
 };
 
+// A wide room that was filled, and the chosen cells that are gone for it.
+struct Widened {
+  Filled filled;
+  std::vector<KeptIndex> chosen;
+};
+
 class HexOpener {
  public:
-  explicit HexOpener(GapMesh& gap) : gap_(gap), patch_(gap, least_wanted), refill_(gap) {}
+  explicit HexOpener(GapMesh& gap) : gap_(gap), patch_(gap, least_wanted), refill_(gap), wide_(gap) {}
 
   Opened run();
+  Opened run_wide();
 
  private:
   std::vector<KeptIndex> chosen_around(const GapCell& poor, std::size_t most) const;
   std::vector<std::vector<GapIndex>> rooms_beside(std::span<const Facet> skin, GapIndex poor) const;
   std::vector<Vertex> movable(std::span<const Facet> skin) const;
   std::optional<Filled> fill(std::vector<Facet> skin, std::span<const GapIndex> out, std::int32_t region);
+  std::optional<Filled> fill_around(const Vec3& middle, std::span<const Facet> skin, std::span<const GapIndex> out,
+                                    std::int32_t region);
   void undo(const Filled& filled);
   bool are_good_enough(GapIndex first_new) const;
   bool is_poor(GapIndex c) const {
@@ -56,18 +71,23 @@ class HexOpener {
     return gap_.is_alive(c) && gap_.cell(c).quality < least_wanted;
   }
   std::ptrdiff_t refused_at(std::span<const Vertex> vertices, GapIndex c) const;
-  bool fill_without_vertex(Vertex middle, GapIndex poor);
+  std::optional<Filled> fill_without_vertex(Vertex middle, GapIndex poor);
   bool fill_for(GapIndex poor, std::vector<Facet> skin, std::span<const GapIndex> out);
   bool insert(GapIndex poor);
   bool open(KeptIndex kept, GapIndex poor);
   std::vector<KeptIndex> open_one(GapIndex poor);
   std::vector<KeptIndex> open_two(GapIndex poor);
   std::vector<KeptIndex> open_for(GapIndex poor);
+  bool open_wide(GapIndex poor);
+  void undo_all();
+  std::vector<GapIndex> poor_cells() const;
 
   GapMesh& gap_;
   Patch patch_;
   Refill refill_;
+  WideRooms wide_;
   std::vector<Vertex> spare_;  // vertices that failed tries have left
+  std::vector<Widened> done_;  // by open_wide()
 };
 
 std::vector<KeptIndex> HexOpener::chosen_around(const GapCell& poor, std::size_t most) const {
@@ -134,16 +154,17 @@ std::ptrdiff_t HexOpener::refused_at(std::span<const Vertex> vertices, GapIndex 
 }
 
 // Fills the room of the cells at the new vertex, and of the poor one, with cells that do without that vertex.
-bool HexOpener::fill_without_vertex(Vertex middle, GapIndex poor) {
+std::optional<Filled> HexOpener::fill_without_vertex(Vertex middle, GapIndex poor) {
   std::vector<GapIndex> out(gap_.cells_at(middle).begin(), gap_.cells_at(middle).end());
   if (gap_.is_alive(poor)) out.push_back(poor);
-  if (!std::ranges::all_of(out, [&](GapIndex c) { return is_valid(gap_, gap_.cell(c)); })) return false;
+  if (!std::ranges::all_of(out, [&](GapIndex c) { return is_valid(gap_, gap_.cell(c)); })) return std::nullopt;
   const auto in = refill_.find(out);
-  if (!in) return false;
+  if (!in) return std::nullopt;
   const auto is_good = [&](const GapCell& cell) { return cell.quality >= least_wanted && is_valid(gap_, cell); };
-  if (!std::ranges::all_of(*in, is_good)) return false;
+  if (!std::ranges::all_of(*in, is_good)) return std::nullopt;
+  Filled filled{out, GapIndex(gap_.cell_count()), middle, {}, {}};
   gap_.replace(out, *in);
-  return true;
+  return filled;
 }
 
 // Fills the room within `skin` and of the cells `out` around a vertex in its middle, and moves the vertices around it.
@@ -160,7 +181,11 @@ std::optional<Filled> HexOpener::fill(std::vector<Facet> skin, std::span<const G
   double corners = 0;
   for (const Facet& facet : skin)
     for (const Vertex v : facet.vertices()) middle += gap_.points()[v], ++corners;
-  middle *= 1 / corners;
+  return fill_around(middle * (1 / corners), skin, out, region);
+}
+
+std::optional<Filled> HexOpener::fill_around(const Vec3& middle, std::span<const Facet> skin,
+                                             std::span<const GapIndex> out, std::int32_t region) {
   if (spare_.empty()) spare_.push_back(gap_.add_vertex(middle));
   Filled filled{{out.begin(), out.end()}, GapIndex(gap_.cell_count()), spare_.back(), movable(skin), {}};
   spare_.pop_back();
@@ -252,6 +277,68 @@ std::vector<KeptIndex> HexOpener::open_for(GapIndex poor) {
   return opened.empty() ? open_two(poor) : opened;
 }
 
+// Puts a vertex into a wide room around the cell, and moves it to where the objective is less; or changes nothing.
+bool HexOpener::open_wide(GapIndex poor) {
+  const std::int32_t region = gap_.cell(poor).region;
+  wide_.begin(poor);
+  while (const WideRoom* room = wide_.next()) {
+    if (room->worst < worth_raising) continue;
+    for (const KeptIndex k : room->chosen) gap_.set_alive(k, false);
+    if (auto filled = fill_around(room->at, room->skin, room->out, region)) {
+      if (are_good_enough(filled->first_new)) {
+        const Vertex middle = filled->middle;
+        done_.push_back({std::move(*filled), room->chosen});
+        if (auto without = fill_without_vertex(middle, poor))
+          done_.push_back({std::move(*without), {}});
+        else
+          step_to_lower_cost(gap_, patch_, middle);
+        return true;
+      }
+      undo(*filled);
+    }
+    for (const KeptIndex k : room->chosen) gap_.set_alive(k, true);
+  }
+  return false;
+}
+
+// Everything that open_wide() has done, the last first.
+void HexOpener::undo_all() {
+  for (; !done_.empty(); done_.pop_back()) {
+    undo(done_.back().filled);
+    for (const KeptIndex k : done_.back().chosen) gap_.set_alive(k, true);
+  }
+}
+
+// Worst first.
+std::vector<GapIndex> HexOpener::poor_cells() const {
+  std::vector<GapIndex> poor;
+  for (const auto c : indices<GapIndex>(gap_.cell_count()))
+    if (is_poor(c)) poor.push_back(c);
+  std::ranges::stable_sort(poor, {}, [&](GapIndex c) { return gap_.cell(c).quality; });
+  return poor;
+}
+
+// Where one has failed, another may take it along.
+Opened HexOpener::run_wide() {
+  std::vector<GapIndex> poor = poor_cells();
+  std::size_t failures = 0, before = poor.size() + 1;
+  while (!poor.empty() && poor.size() < before && failures <= most_failures) {
+    before = poor.size(), failures = 0;
+    for (const GapIndex c : poor)
+      if (failures <= most_failures && is_poor(c) && !open_wide(c)) ++failures;
+    poor = poor_cells();
+  }
+  if (!poor.empty()) {
+    undo_all();
+    return {};
+  }
+  Opened result;
+  result.inserted = static_cast<std::int64_t>(done_.size());
+  for (const Widened& done : done_)
+    for (const KeptIndex k : done.chosen) result.chosen.push_back(gap_.kept_cell(k).source);
+  return result;
+}
+
 Opened HexOpener::run() {
   Opened result;
   const std::size_t most = gap_.is_strict() ? gap_.kept_count() / chosen_per_refused
@@ -273,6 +360,10 @@ Opened HexOpener::run() {
 
 Opened open_hexes(GapMesh& gap) {
   return HexOpener(gap).run();
+}
+
+Opened open_wide(GapMesh& gap) {
+  return HexOpener(gap).run_wide();
 }
 
 }  // namespace hexpipe::assemble::gap

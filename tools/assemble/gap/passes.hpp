@@ -36,6 +36,9 @@ struct RefillCounts {
 // Fills small rooms anew (refill.hpp): the cells around a free vertex, those around an edge, and those around a poor
 // cell.
 RefillCounts refill_rooms(GapMesh& gap);
+// The same only where vertices are older than they were, by vertex, and in a few rings of cells around.
+RefillCounts refill_rooms_since(GapMesh& gap, std::vector<std::uint32_t> ages);
+std::vector<std::uint32_t> ages_of_vertices(const GapMesh& gap);
 
 struct Opened {
   std::int64_t inserted = 0;      // rooms of gap cells that were filled anew
@@ -47,6 +50,10 @@ struct Opened {
 // No other cell falls below least_wanted that was not below before. At most nine chosen cells and one more in each 300
 // go.
 Opened open_hexes(GapMesh& gap);
+// Puts a new vertex into a wide room (wide_rooms.hpp) around each cell that is still worse than least_wanted, the worst
+// first. Up to three chosen cells may go for it, one of them a hex. The cells that come are more than those that go:
+// that is worth it only if no cell below least_wanted is left. Otherwise everything is as before.
+Opened open_wide(GapMesh& gap);
 
 // Moves inner vertices out of the hexes that they belong to, into the cells of the gap, until the hexes are larger by
 // `volume`, as far as that costs little (objective.hpp). No cell of the gap falls below 0.2 that was not below before.

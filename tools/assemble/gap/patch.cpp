@@ -20,6 +20,9 @@ namespace {
 constexpr double least_hex = least_hex_quality, least_prism = good_enough;
 constexpr double hex_weight = 0.5;
 constexpr int steps_to_make_room = 6;
+// Of raise_with_neighbours(), which goes on in small steps: with least_rise a tet on bridge ends at 0.1193. With 1e-4
+// it gets there, too, but more cells yield.
+constexpr double small_rise = 3e-4;
 // A move after which a cell is not valid is halved this often.
 constexpr int retreats = 2;
 // Of lower_cost(), in parts of the shortest edge.
@@ -97,7 +100,7 @@ void Patch::look_around(std::size_t i) {
   }
 }
 
-bool Patch::improve(std::size_t i, double goal) {
+bool Patch::improve(std::size_t i, double goal, double rise) {
   // Chosen cells are better: most vertices need no look at all of theirs.
   const bool is_good_here =
       std::ranges::all_of(at_[i], [&](std::size_t c) { return cells_[c].is_kept || quality(cells_[c]) >= goal; });
@@ -111,7 +114,7 @@ bool Patch::improve(std::size_t i, double goal) {
   Vec3 step = place.at - before;
   for (int retreat = 0; retreat <= retreats; ++retreat, step *= 0.5) {
     const Vec3 at = before + step;
-    if (star_.worst(at) < worst + least_rise || !star_.keeps_floors(before, at)) continue;
+    if (star_.worst(at) < worst + rise || !star_.keeps_floors(before, at)) continue;
     point = at;
     if (std::ranges::all_of(at_[i], [&](std::size_t c) { return !cells_[c].is_kept || is_good(cells_[c]); }))
       return true;
@@ -124,7 +127,7 @@ void Patch::raise(double goal, int rounds) {
   double before = -1;
   for (int round = 0; round < rounds; ++round) {
     bool any = false;
-    for (std::size_t i = 0; i < moving_.size(); ++i) any = improve(i, goal) || any;
+    for (std::size_t i = 0; i < moving_.size(); ++i) any = improve(i, goal, least_rise) || any;
     const double now = least();
     if (!any || now >= goal || (round > 0 && now < before + least_rise)) return;
     before = now;
@@ -137,7 +140,7 @@ bool Patch::raise_with_neighbours(double goal, double enough, int rounds) {
   for (int round = 0; round < rounds && any; ++round) {
     any = false;
     for (std::size_t i = 0; i < moving_.size(); ++i) {
-      if (!improve(i, goal)) continue;
+      if (!improve(i, goal, small_rise)) continue;
       any = true;
       if (least() >= enough && keeps_floors() && costs_at_most(most)) return true;
     }

@@ -85,7 +85,7 @@ class Patch {
   double quality(const Cell& cell) const;
   bool is_good(const Cell& cell) const;
   void look_around(std::size_t i);
-  bool improve(std::size_t i, double goal);
+  bool improve(std::size_t i, double goal, double rise);
   double shortest_edge_at(std::size_t i) const;
   FacesOf faces_of(const Cell& cell) const;
   std::vector<FacesOf> faces_of_all() const;
