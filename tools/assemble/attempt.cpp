@@ -121,6 +121,7 @@ class Builder {
   void smooth_and_mend(Attempt& attempt) const;
   gap::FewerCells make_fewer_cells(Attempt& attempt, gap::Passes passes) const;
   void merge_and_smooth(Attempt& attempt) const;
+  void mend(Attempt& attempt) const;
   void improve(Attempt& attempt, int rounds) const;
   bool mend_flat_tets(Attempt& attempt) const;
   std::vector<CandidateIndex> poor_candidates(const hybrid::HybridMesh& mesh) const;
@@ -207,11 +208,19 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
   }
   step.reset();
   step.emplace("mending poor cells", mending_ends, 1);
-  if (!rules_.merges) return;
-  bool mended = make_fewer_cells(attempt, gap::Passes::mend).any();
-  if (rules_.mends_refused)
-    for (const gap::Passes passes : {gap::Passes::mend_refused, gap::Passes::open_for_refused})
-      mended = make_fewer_cells(attempt, passes).any() || mended;
+  if (rules_.merges) mend(attempt);
+}
+
+// What is still poor, or refused by solvers, when smoothing is over.
+void Builder::mend(Attempt& attempt) const {
+  hybrid::Extract& extracted = attempt.extracted;
+  if (make_fewer_cells(attempt, gap::Passes::mend).any()) extracted = hybrid::extract(attempt.mesh, attempt.tags);
+  const shape::SlidingSurface surface = sliding(extracted);
+  if (shape::raise_worst_cells(extracted.mesh, surface) > 0) move_points(extracted, attempt.mesh);
+  if (!rules_.mends_refused) return;
+  bool mended = false;
+  for (const gap::Passes passes : {gap::Passes::mend_refused, gap::Passes::open_for_refused})
+    mended = make_fewer_cells(attempt, passes).any() || mended;
   if (mended) extracted = hybrid::extract(attempt.mesh, attempt.tags);
 }
 

@@ -22,16 +22,11 @@
 #include "common/mesh/quality.hpp"
 #include "common/mesh/validity.hpp"
 #include "common/mesh/vertex_items.hpp"
-#include "tools/assemble/shape/boundary_deviation.hpp"
-#include "tools/assemble/shape/point_star.hpp"
+#include "tools/assemble/shape/smoother.hpp"
 
 namespace hexpipe::assemble::shape {
 namespace {
 
-// When cells compete for a vertex, a hex of 0.5 counts as a tet or a pyramid of 0.25. Without this factor the flat
-// pyramids at the border of a hex block, which cannot become much better, pull the hexes next to them down to their own
-// quality (a mean of 0.92 instead of 0.96 on a block with a notch).
-constexpr double hex_weight = 0.5;
 // While there are poor cells, a hex of 0.1 counts as another cell of 0.025: both should reach about that.
 constexpr double hex_weight_of_poor = 0.25;
 // The mean counts no more than this of cells other than hexes: pyramids would grow tall and press hexes flat.
@@ -41,17 +36,12 @@ constexpr double good_prism = 0.5;
 // Cells between hexes become as thin as good_enough lets them, and hexes are as good as without growth. At 0.5 hexes
 // are 0.02 worse on average, at 0.1 they take half as much from the tets.
 constexpr double worth_of_growth = 0.2;
-// If the worst cell, so weighted, is worse than this, vertices slide on curved surfaces. If it is better than
-// good_enough, the average counts, and growth.
-constexpr double slides_below = 0.12;
 // A vertex stays if all its cells are at least this good.
 constexpr double excellent = 0.9;
 // The quality of a cell and the values of its corners in a star differ by less than this.
 constexpr double rounding = 1e-9;
 constexpr int steps_for_worst = 8;
 constexpr int steps_for_score = 2;
-// A smaller gain is not worth another look at the neighbours.
-constexpr double least_gain_of_move = 1e-3;
 // Planes of a surface file are uneven by this much, in diagonals of the bounding box: such files hold floats.
 constexpr double most_uneven = 5e-7;
 // Scaled Jacobians do not see the length of edges: none may become shorter than this fraction of the longest at its
@@ -60,122 +50,7 @@ constexpr double shortest_edge = 0.1;
 // A move that leaves a hex invalid is halved this often.
 constexpr int retreats = 4;
 
-// Cells at each vertex, in flat arrays.
-class Cells {
- public:
-  explicit Cells(const MixedMesh& mesh) {
-    auto each = [&](CellKind kind, const auto& block) {
-      for (const auto& cell : block.cells) {
-        kinds_.push_back(kind);
-        first_.push_back(static_cast<std::int64_t>(corners_.size()));
-        corners_.insert(corners_.end(), cell.begin(), cell.end());
-      }
-    };
-    each(CellKind::hex, mesh.hexes), each(CellKind::prism, mesh.prisms);
-    each(CellKind::pyramid, mesh.pyramids), each(CellKind::tet, mesh.tets);
-    cells_ = VertexItems(mesh.points.size(), [&](auto&& visit) {
-      for (std::int32_t c = 0; c < static_cast<std::int32_t>(kinds_.size()); ++c)
-        for (Vertex v : corners_of(c)) visit(v, c);
-    });
-  }
-
-  CellKind kind(std::int32_t c) const { return kinds_[c]; }
-  std::span<const Vertex> corners_of(std::int32_t c) const {
-    return std::span(corners_).subspan(first_[c], corner_count(kinds_[c]));
-  }
-  std::span<const std::int32_t> at(Vertex v) const { return cells_.at(v); }
-  std::size_t size() const { return kinds_.size(); }
-
- private:
-  std::vector<CellKind> kinds_;
-  std::vector<std::int64_t> first_;
-  std::vector<Vertex> corners_;
-  VertexItems cells_;
-};
-
-class Smoother {
- public:
-  Smoother(MixedMesh& mesh, const SlidingSurface* sliding, double weight_of_hexes)
-      : weight_of_hexes_(weight_of_hexes),
-        points_(mesh.points),
-        cells_(mesh),
-        freedoms_(vertex_freedoms(mesh)),
-        due_(mesh.points.size(), 1),
-        quality_(cells_.size(), unknown) {
-    if (sliding == nullptr) return;
-    sliding_ = sliding;
-    for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v)
-      if (sliding->has_to_stay(v)) freedoms_[v].kind = Freedom::Kind::none;
-    deviation_.emplace(mesh, sliding->surface, sliding->input_points, sliding->origin);
-  }
-
-  // Returns the number of vertices that moved. Looks only at vertices whose worst cell, weighted or unweighted, is
-  // below `only_below`.
-  std::int64_t round(double only_below, bool weighted) {
-    std::int64_t moves = 0;
-    for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v) {
-      if (!due_[v] || (freedoms_[v].kind == Freedom::Kind::none && !slides(v))) continue;
-      due_[v] = 0;
-      if (!improve(v, only_below, weighted)) continue;
-      ++moves;
-      for (std::int32_t c : cells_.at(v)) {
-        quality_[c] = unknown;
-        for (Vertex neighbour : cells_.corners_of(c)) due_[neighbour] = 1;
-      }
-    }
-    return moves;
-  }
-
-  // Leaves out the vertices around which all is as it was when they settled.
-  void skip(const Settled& settled) {
-    const auto states = states_of_vertices();
-    for (std::size_t v = 0; v < states.size(); ++v)
-      if (const auto from = static_cast<std::size_t>(sliding_->origin[v]); from < settled.size())
-        due_[v] = settled[from] != states[v];
-  }
-  void remember(Settled& settled) const {
-    const auto states = states_of_vertices();
-    settled.clear();
-    for (std::size_t v = 0; v < states.size(); ++v) {
-      const auto from = static_cast<std::size_t>(sliding_->origin[v]);
-      if (from >= settled.size()) settled.resize(from + 1);
-      if (due_[v] == 0) settled[from] = states[v];
-    }
-  }
-
- private:
-  std::vector<std::uint64_t> states_of_vertices() const;
-
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-  double quality_of(std::int32_t c);
-  bool are_above(Vertex v, double bound, bool weighted);
-  bool slides(Vertex v) const;
-  Freedom freedom(Vertex v) const;
-  bool stays_close(Vertex v, const Vec3& at);
-  bool keeps_edges_long(Vertex v, const Vec3& at) const;
-  bool leaves_surface(Vertex v, const Vec3& at) const;
-  bool improve(Vertex v, double only_below, bool weighted);
-  void look_around(Vertex v);
-  CornerRules rules_of(CellKind kind) const;
-  bool is_valid_cell(std::int32_t c) const;
-  bool looks_inverted(std::int32_t c) const;
-  Vec3 growth_at(Vertex v) const;
-
-  double weight_of_hexes_;
-  std::vector<Vec3>& points_;
-  Cells cells_;
-  std::vector<Freedom> freedoms_;
-  const SlidingSurface* sliding_ = nullptr;
-  std::optional<BoundaryDeviation> deviation_;
-  std::vector<std::uint8_t> due_;  // something around has moved since it was looked at
-  std::vector<double> quality_;    // by cell
-  PointStar star_;
-  // While improve() looks at a vertex: its star as it is and as it would be, and cells at it that were valid, and
-  // prisms that were upright.
-  PointStar::Measures before_, after_;
-  std::vector<std::int32_t> valid_, upright_;
-};
+}  // namespace
 
 void Smoother::look_around(Vertex v) {
   star_.clear();
@@ -312,23 +187,25 @@ bool Smoother::are_above(Vertex v, double bound, bool weighted) {
   });
 }
 
-bool Smoother::improve(Vertex v, double only_below, bool weighted) {
+// If the worst cell, weighted by kind, is worse than the goal, vertices slide on curved surfaces. If it is better, the
+// average counts, and growth.
+bool Smoother::improve(Vertex v, double only_below, bool weighted, double goal, double rise) {
   if (are_above(v, only_below, weighted)) return false;
   const bool slide = slides(v);
-  if (slide && are_above(v, slides_below + rounding, true)) return false;
+  if (slide && are_above(v, goal + rounding, true)) return false;
   look_around(v);
   const Vec3 before = points_[v];
   star_.measure(before, before_);
   const double worst = before_.worst;
   const double worst_unweighted = before_.worst_unweighted;
   if ((weighted ? worst : worst_unweighted) > only_below) return false;
-  const bool poor = worst < good_enough;
-  if (slide && worst > slides_below) return false;
+  const bool poor = worst < goal;
+  if (slide && worst > goal) return false;
   if (!poor) star_.set_pull(before, worth_of_growth * growth_at(v));
   const double score = star_.score_of(before_);
-  const Placement goal = poor ? raise_worst(star_, before, steps_for_worst, freedom(v))
+  const Placement best = poor ? raise_worst(star_, before, steps_for_worst, freedom(v))
                               : raise_score(star_, before_, steps_for_score, good_enough, freedoms_[v]);
-  if (goal.at == before) return false;
+  if (best.at == before) return false;
   upright_.clear();
   for (const std::int32_t c : cells_.at(v))
     if (cells_.kind(c) == CellKind::prism && !looks_inverted(c)) upright_.push_back(c);
@@ -336,13 +213,13 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
   // Only untangle() meets invalid cells.
   if (worst <= 0) std::erase_if(valid_, [&](std::int32_t c) { return !is_valid_cell(c); });
   const double floor = poor ? worst_unweighted : std::min(worst_unweighted, good_enough);
-  Vec3 step = goal.at - before;
+  Vec3 step = best.at - before;
   for (int i = 0; i <= retreats; ++i, step *= 0.5) {
     const Vec3 there = before + step;
     const Vec3 at = slide ? sliding_->surface.foot(sliding_->origin[v], there).at : there;
     star_.measure(at, after_);
     if (after_.worst_unweighted < floor || !star_.keeps_floors(before_, after_)) continue;
-    const bool better = poor ? after_.worst > worst + least_gain_of_move
+    const bool better = poor ? after_.worst > worst + rise
                              : after_.worst >= good_enough && star_.score_of(after_) > score + least_gain_of_move;
     if (!better || leaves_surface(v, at) || (worst > 0 && !keeps_edges_long(v, at)) || (slide && !stays_close(v, at)))
       continue;
@@ -354,8 +231,6 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted) {
   }
   return false;
 }
-
-}  // namespace
 
 void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) {
   // Hexes below 0.16 and others below 0.04: more than poor, so that the neighbours' moves do not undo it.

@@ -54,4 +54,11 @@ using Settled = std::vector<std::uint64_t>;
 // `settled`, which needs `sliding`, is read and written.
 SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr, Settled* settled = nullptr);
 
+// Raises the worst pyramid, then the worst tet, and the next where that came about, until one is good enough or does
+// not rise. Vertices of all cells around it move together, on the surface as in smooth(), so that its neighbours become
+// better than they have to be and can yield. No other cell falls below good enough that was not below before, and none
+// that was becomes worse, nor do those that are no hexes on average; hexes stay above least_hex_quality, or as they
+// are. Returns the number of cells that rose.
+std::int64_t raise_worst_cells(MixedMesh& mesh, const SlidingSurface& sliding);
+
 }  // namespace hexpipe::assemble::shape
