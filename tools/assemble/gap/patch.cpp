@@ -15,7 +15,7 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// As in smoothing (shape/smooth.cpp): chosen cells are not pressed below that, and a hex counts as another cell of half
+// As in smoothing (shape/smoother.cpp): chosen cells are not pressed below that, and a hex counts as another cell of half
 // its quality.
 constexpr double least_hex = least_hex_quality, least_prism = good_enough;
 constexpr double hex_weight = 0.5;

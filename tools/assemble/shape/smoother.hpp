@@ -1,5 +1,5 @@
 #pragma once
-// What smoothing a mesh works with: for smooth.cpp and raise_worst.cpp.
+// What smoothing a mesh works with: one vertex after the other (smoother.cpp), and several together (raise_worst.cpp).
 
 #include <algorithm>
 #include <cstdint>
