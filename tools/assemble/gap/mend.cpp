@@ -19,7 +19,7 @@ namespace {
 constexpr int most_mending_passes = 3;
 // Few cells are poor; the third round mended 5 and the fourth none on most models.
 constexpr int most_rounds = 3;
-constexpr int rounds_of_moves = 5, rounds_with_neighbours = 10, rounds_of_settling = 2;
+constexpr int rounds_of_moves = 5, rounds_of_settling = 2;
 // How good neighbours of a poor cell become so that it rises. With 0.15 a tet of 0.118 on bridge stays where it is.
 constexpr double goal_of_neighbours = 0.2;
 
@@ -77,7 +77,7 @@ bool Mender::raise(const std::vector<Vertex>& vertices) {
 
 bool Mender::raise_with_neighbours(const std::vector<Vertex>& vertices) {
   patch_.take(vertices, {});
-  if (!patch_.raise_with_neighbours(goal_of_neighbours, least_quality, rounds_with_neighbours)) return false;
+  if (!patch_.raise_with_neighbours(goal_of_neighbours, least_quality, rounds_of_moves)) return false;
   patch_.carry_out(gap_, {});
   // Now that no cell there is poor, vertices go where the objective is less.
   patch_.take(vertices, {});

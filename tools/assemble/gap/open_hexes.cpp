@@ -33,7 +33,7 @@ constexpr int rounds_to_raise = 20;
 // A new vertex that no place is better for is not tried: vertices around it cannot make that much room.
 constexpr double worth_raising = 0.03;
 // With more failures nobody hopes for a mesh without poor cells any more: meshes with many would take long.
-constexpr std::size_t most_failures = 2;
+constexpr std::size_t most_failures = 1;
 
 // What filling a room has changed, so that it can be undone as long as nothing follows.
 struct Filled {

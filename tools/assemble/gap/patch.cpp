@@ -15,8 +15,8 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// As in smoothing (shape/smoother.cpp): chosen cells are not pressed below that, and a hex counts as another cell of half
-// its quality.
+// As in smoothing (shape/smoother.cpp): chosen cells are not pressed below that, and a hex counts as another cell of
+// half its quality.
 constexpr double least_hex = least_hex_quality, least_prism = good_enough;
 constexpr double hex_weight = 0.5;
 constexpr int steps_to_make_room = 6;
@@ -136,6 +136,7 @@ void Patch::raise(double goal, int rounds) {
 
 bool Patch::raise_with_neighbours(double goal, double enough, int rounds) {
   const double most = cost_before();
+  double before = least();
   bool any = true;
   for (int round = 0; round < rounds && any; ++round) {
     any = false;
@@ -144,6 +145,10 @@ bool Patch::raise_with_neighbours(double goal, double enough, int rounds) {
       any = true;
       if (least() >= enough && keeps_floors() && costs_at_most(most)) return true;
     }
+    // In the first round neighbours may have begun to yield for the next.
+    const double now = least();
+    if (round > 0 && now <= before) break;
+    before = now;
   }
   return false;
 }

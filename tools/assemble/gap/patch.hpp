@@ -40,7 +40,8 @@ class Patch {
   void raise(double goal, int rounds);
   // The same for vertices whose cells are good enough, but not as good as `goal`: a poor cell rises only where those
   // around it yield, and they can only where they are better than they have to be. Ends when no cell of the gap is
-  // below `enough`, the floors hold, and the cost has not risen. False if that does not come about.
+  // below `enough`, the floors hold, and the cost has not risen. False if that does not come about, or if the second
+  // round or a later one does not raise the least quality.
   bool raise_with_neighbours(double goal, double enough, int rounds);
 
   // Moves each of the first `most` vertices in turn by the one of a few steps along the axes after which the cost is

@@ -122,7 +122,6 @@ void WideRooms::offer(WideRoom wider, const Vec3& start) {
   const std::uint64_t number = number_of(wider);
   if (std::ranges::find(seen_, number) != seen_.end()) return;
   seen_.push_back(number);
-  place(wider, middle_of(gap_.points(), wider.skin));
   place(wider, start);
   double score = wider.worst;
   for (const KeptIndex k : wider.chosen)

@@ -73,6 +73,8 @@ bool Smoother::raise(std::int32_t poor) {
       reached = quality_of(poor), last = round;
       for (std::size_t i = 0; i < vertices.size(); ++i) best[i] = points_[vertices[i]];
     }
+    // Others may be too poor for a while, but without any rise until now none comes.
+    if (round > 0 && quality_of(poor) < before + small_rise) break;
   }
   const bool is_worth_it = reached >= std::min(good_enough, before + worthy_rise);
   for (std::size_t i = 0; i < vertices.size(); ++i) points_[vertices[i]] = is_worth_it ? best[i] : start[i];
