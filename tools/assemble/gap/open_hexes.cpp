@@ -1,8 +1,8 @@
 // A poor cell that nothing mends has too few vertices that may move. A new vertex is put into the room of the cell and
 // of cells beside it, with pyramids and tets around it. If that does not help, the cell stands between hexes that may
 // not become worse, and one of them gives way: its room is filled in the same manner. Where two hexes and the surface
-// hold the cell from all sides, both go, one after the other. The cells are positive everywhere, and their skin is that
-// of the room, so that they fill it and nothing else (refill.cpp).
+// hold the cell from all sides, both go, one after the other. At last the room grows (wide_rooms.hpp). The cells are
+// positive everywhere, and their skin is that of the room, so that they fill it and nothing else (refill.cpp).
 
 #include <algorithm>
 #include <array>

@@ -13,8 +13,8 @@ namespace {
 
 // Later passes find little: on mambo-s1 at 2.3 the first finds 9 of 10.
 constexpr int most_refilling_passes = 5;
-// How far from a change refill_rooms_since() looks: with none of these spot has 12 tets more, with ten 13 fewer, in
-// three times the time.
+// How far from a change refill_rooms_since() looks: with none of these spot has 11 tets more, with ten 13 fewer, but it
+// takes longer.
 constexpr int rings_of_cells = 3;
 
 class Rooms {

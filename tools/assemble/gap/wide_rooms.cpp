@@ -9,7 +9,7 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// So many rooms are looked at around a cell, of so many facets. On spot the last of five cells takes 23.
+// So many rooms are looked at around a cell, of so many facets. With 12 a cell is left on spot.
 constexpr int most_rooms = 25;
 constexpr std::size_t most_facets_of_wide = 40;
 constexpr std::size_t most_chosen = 3, most_hexes = 1;
