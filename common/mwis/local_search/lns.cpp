@@ -15,6 +15,7 @@
 #include "common/mwis/local_search/schedule.hpp"
 #include "common/mwis/local_search/short_coolings.hpp"
 #include "common/mwis/local_search/stop_rule.hpp"
+#include "common/mwis/reduce/sample.hpp"
 #include "common/run/parallel.hpp"
 #include "common/run/progress.hpp"
 
@@ -51,7 +52,7 @@ double vertices_of_whole(const graph::ConflictGraph& graph) {
 // hexes of 2,100 to 198,000 vertices no gain came later. block-28k, random-33k and sphere-56k gain in the first pass
 // and go on to gain.
 double vertices_of_sample(const graph::ConflictGraph& graph) {
-  const double sample = graph.vertex_count() > most_of_a_small_graph ? 6000 : 15000;
+  const double sample = graph.vertex_count() > reduce::most_of_a_small_graph ? 6000 : 15000;
   return std::min(sample, vertices_of_whole(graph));
 }
 
@@ -126,7 +127,7 @@ class Lns {
   // How many times its work the search needs at most to see enough of the graph.
   double times_left() const {
     const std::int32_t vertices = state_.graph().vertex_count();
-    if (vertices <= most_of_a_small_graph || seen_ == 0) return std::numeric_limits<double>::infinity();
+    if (vertices <= reduce::most_of_a_small_graph || seen_ == 0) return std::numeric_limits<double>::infinity();
     return times_over_graph * static_cast<double>(vertices) / seen_;
   }
   Schedule& schedule_of(Operator op) { return schedules_[index_of(op)]; }

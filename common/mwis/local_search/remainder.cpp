@@ -7,73 +7,29 @@
 #include "common/graph/conflict_graph.hpp"
 #include "common/mwis/exact/exact_solver.hpp"
 #include "common/mwis/ground/solution_state.hpp"
+#include "common/mwis/reduce/sample.hpp"
 
 namespace hexpipe::mwis::local_search {
 namespace {
 
 // Reductions of sparse graphs bring more than any search of the same time; on other graphs they decide little.
-constexpr double sparse_degree = 16, share_in_sparse = 0.6, share_in_dense = 0.1;
+constexpr double share_in_sparse = 0.6, share_in_dense = 0.1;
 // Larger components are left to the search, and so are those that take more nodes, which is tenths of a second.
 constexpr std::size_t most_solved = 512;
 constexpr std::int64_t most_nodes = 5000;
 // When this many components of similar size took too long, the larger ones would, too.
 constexpr int most_failures = 3;
 
-// Reductions of a graph of a million hexes take 5 s, and decide 3 % of the vertices; copying the rest takes 2 s more.
-// The search of all of it takes 10 s, so large graphs are sampled first.
-constexpr std::int32_t samples = 8;
-constexpr std::size_t vertices_a_sample = 2048;
-// Of the sampled vertices, reductions have to decide this share. They decide 0.5 to 3 % of graphs of hexes.
-constexpr double least_decided = 0.1;
-
-bool is_sparse(const graph::ConflictGraph& graph) {
-  const auto vertices = static_cast<double>(std::max(1, graph.vertex_count()));
-  return static_cast<double>(graph.neighbours.size()) / vertices <= sparse_degree;
-}
-
 Deadline share_of(const Deadline& deadline, const graph::ConflictGraph& graph) {
   if (!std::isfinite(deadline.remaining())) return Deadline();
-  return Deadline((is_sparse(graph) ? share_in_sparse : share_in_dense) * deadline.remaining());
-}
-
-// The vertices nearest to some that are spread over the graph, ascending.
-std::vector<std::int32_t> sample_of(const graph::ConflictGraph& graph) {
-  std::vector<char> seen(graph.weights.size(), 0);
-  std::vector<std::int32_t> sample;
-  const auto see = [&](std::int32_t v) {
-    if (seen[v] != 0) return;
-    seen[v] = 1;
-    sample.push_back(v);
-  };
-  for (std::int32_t i = 0; i < samples; ++i) {
-    std::size_t next = sample.size();
-    const std::size_t end = next + vertices_a_sample;
-    see(i * (graph.vertex_count() / samples));
-    for (; next < sample.size() && sample.size() < end; ++next)
-      for (const std::int32_t u : graph.neighbours_of(sample[next])) see(u);
-  }
-  std::ranges::sort(sample);
-  return sample;
-}
-
-bool decides_enough(const graph::ConflictGraph& graph, const Deadline& deadline) {
-  const std::vector<std::int32_t> vertices = sample_of(graph);
-  const graph::ConflictGraph sample = graph::induced_subgraph(graph, vertices);
-  std::vector<char> incomplete(vertices.size(), 0);
-  std::int64_t complete = 0;
-  for (std::int32_t i = 0; i < sample.vertex_count(); ++i) {
-    incomplete[i] = sample.degree(i) < graph.degree(vertices[i]) ? 1 : 0;
-    complete += 1 - incomplete[i];
-  }
-  reduce::ReductionLog log;
-  reduce::Reducer reducer(sample, log, std::move(incomplete));
-  reducer.run(reduce::ReductionEffort::quick, deadline);
-  const std::int32_t decided = sample.vertex_count() - reducer.graph().alive_count();
-  return decided >= least_decided * static_cast<double>(complete);
+  return Deadline(
+      (reduce::is_sparse(graph.vertex_count(), std::ssize(graph.neighbours)) ? share_in_sparse : share_in_dense) *
+      deadline.remaining());
 }
 
 bool is_worth_reducing(const graph::ConflictGraph& graph, const Deadline& deadline) {
-  return graph.vertex_count() <= most_of_a_small_graph || is_sparse(graph) || decides_enough(graph, deadline);
+  return !reduce::needs_sample(graph.vertex_count(), std::ssize(graph.neighbours)) ||
+         reduce::reduce_sample(graph, reduce::places_of_sample, {}, deadline).decides_enough();
 }
 
 }  // namespace

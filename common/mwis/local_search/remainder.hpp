@@ -13,9 +13,6 @@
 
 namespace hexpipe::mwis::local_search {
 
-// Of graphs of up to this many vertices, a search by default visits each vertex often.
-inline constexpr std::int32_t most_of_a_small_graph = 65536;
-
 class Remainder {
  public:
   // Takes a share of the time that is left, or as much as it needs if there is no limit.
