@@ -226,6 +226,23 @@ PYTHON
   done
 }
 
+@test "under a time limit a rank searches its blocks as one, and each rank has a block" {
+  optimized_only "it is about results"
+  "$PYTHON" "$DATA/random_graph.py" 1000 >ring.graph
+  initsol ring.graph --iterations 0 -o start.sol
+  # Alone, it has nothing to wait for at the end of a round.
+  lns-mpi --graph ring.graph --solution start.sol --time-limit 1 --stats stats.json -o out.sol
+  "$PYTHON" -c 'import json; stats = json.load(open("stats.json")); assert (stats["rounds"], stats["blocks"]) == (1, 4), stats'
+  on 6 --time-limit 1 --stats stats.json -o out.sol
+  "$PYTHON" -c 'import json; stats = json.load(open("stats.json")); assert stats["blocks"] == 6 and stats["rounds"] > 1, stats'
+  run "$CHECKERS/solution_check.py" ring.graph out.sol
+  assert_success
+  assert [ "$(weight_of out.sol)" -gt "$(weight_of start.sol)" ]
+  run_apart on 6 --iterations 10 -o out.sol
+  assert_equal "$status" 1
+  grep -q "expected at least a block for each of 6 ranks, found 4" <<<"$stderr"
+}
+
 @test "more ranks than blocks, and bad input, are one line of one rank" {
   refuse() {
     local ranks=$1 message=$2

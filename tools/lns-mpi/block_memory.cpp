@@ -19,10 +19,15 @@ mwis::local_search::LnsMemory BlockMemory::recall(const Region& region, std::spa
 void BlockMemory::remember(const mwis::local_search::LnsMemory& memory, const Region& region,
                            std::span<const std::uint64_t> keys) {
   operator_scores_ = memory.operator_scores;
-  places_.clear();
-  places_.reserve(memory.places.size());
+  // Places outside of the region stay known: borders move to and fro.
+  auto inside = region.vertices.begin();
+  std::erase_if(places_, [&](const Place& place) {
+    while (inside != region.vertices.end() && keys[*inside] < place.key) ++inside;
+    return inside != region.vertices.end() && keys[*inside] == place.key;
+  });
   for (const mwis::local_search::LnsMemory::Place& place : memory.places)
     places_.push_back({keys[region.vertices[place.vertex]], place.tries, place.size});
+  std::ranges::sort(places_, {}, &Place::key);
 }
 
 void BlockMemory::forget_tries(std::span<const std::uint64_t> keys) {
@@ -31,6 +36,14 @@ void BlockMemory::forget_tries(std::span<const std::uint64_t> keys) {
     while (known != places_.end() && known->key < key) ++known;
     if (known != places_.end() && known->key == key) known->tries.fill(0);
   }
+}
+
+// How operators have done is of this one, because credit is of work that was done after each other.
+void BlockMemory::join(std::span<const BlockMemory> others) {
+  for (const BlockMemory& other : others) places_.insert(places_.end(), other.places_.begin(), other.places_.end());
+  std::ranges::sort(places_, {}, &Place::key);
+  const auto repeated = std::ranges::unique(places_, {}, &Place::key);
+  places_.erase(repeated.begin(), repeated.end());
 }
 
 std::size_t BlockMemory::usual_size() const {

@@ -34,6 +34,9 @@ class BlockMemory {
   // The size that fragments have reached; 0: nothing is known.
   std::size_t usual_size() const;
 
+  // Takes what the others, of other places, have learnt.
+  void join(std::span<const BlockMemory> others);
+
   const std::vector<Place>& places() const { return places_; }
   const mwis::local_search::OperatorScores& operator_scores() const { return operator_scores_; }
 

@@ -67,6 +67,8 @@ class Job {
       };
     Step step("improving the choice");
     step_ = &step;
+    // As in lns, the limit is for the search, without reading and cutting.
+    deadline_ = context_.deadline();
     if (std::isfinite(deadline_.remaining())) step.usually_takes(deadline_.remaining());
     improve_in_rounds(ranks_, local, rounds_, deadline_, earlier, progress_, memories_,
                       [&](const RoundsProgress&, const RoundCosts& costs, bool last) {

@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
     mwis::declare_lns_options(app, options.rounds.search, target);
     begin_group(app, "Blocks");
     app.add_option("--blocks", options.blocks,
-                   "Blocks to cut the graph into, at least one for each rank; 0: one for each 50000 vertices")
+                   "Blocks to cut the graph into, at least one for each rank; 0: one for each 50000 vertices, and "
+                   "without --iterations at least one for each rank")
         ->check(CLI::Range(0, 1000000).description(""));
     app.add_option("--overlap", options.overlap, "How many edges beyond its border a block may change the solution")
         ->check(CLI::Range(1, 16).description(""));

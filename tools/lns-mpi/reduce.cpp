@@ -4,8 +4,11 @@
 #include "tools/lns-mpi/rounds.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "common/mwis/reduce/reducer.hpp"
+#include "common/mwis/reduce/sample.hpp"
 
 namespace hexpipe::lns_mpi {
 namespace {
@@ -48,6 +51,29 @@ void decide(LocalGraph& local, const BlockGraph& block, const Deadline& deadline
   }
 }
 
+// As lns decides it of a whole graph. All ranks decide the same, for any number of them.
+bool are_worth_reducing(Ranks& ranks, const LocalGraph& local, const std::vector<std::vector<std::int32_t>>& vertices,
+                        std::vector<std::int32_t>& number, const Deadline& deadline) {
+  std::array<std::int64_t, 2> size{0, 0};
+  for (const auto& block : vertices) {
+    size[0] += std::ssize(block);
+    for (const std::int32_t v : block) size[1] += local.graph.degree(v);
+  }
+  ranks.sum(size);
+  if (!mwis::reduce::needs_sample(size[0], size[1])) return true;
+  const std::int32_t blocks = local.owners.blocks();
+  const std::int32_t places = (mwis::reduce::places_of_sample + blocks - 1) / blocks;
+  std::array<std::int64_t, 2> sums{0, 0};
+  for (const auto& block : vertices) {
+    const BlockGraph graph = graph_of(local, block, number);
+    const mwis::reduce::Sample sample = mwis::reduce::reduce_sample(graph.graph, places, graph.incomplete, deadline);
+    sums[0] += sample.complete;
+    sums[1] += sample.decided;
+  }
+  ranks.sum(sums);
+  return mwis::reduce::Sample{sums[0], sums[1]}.decides_enough();
+}
+
 // Sends partners the decisions on shared vertices, by place in the list that both have.
 void tell_partners(Ranks& ranks, LocalGraph& local) {
   struct Decision {
@@ -76,14 +102,16 @@ void tell_partners(Ranks& ranks, LocalGraph& local) {
 
 }  // namespace
 
-void reduce_blocks(Ranks& ranks, LocalGraph& local, const Deadline& deadline) {
+bool reduce_blocks(Ranks& ranks, LocalGraph& local, const Deadline& deadline) {
   const std::int32_t first = local.owners.first_of(local.rank), last = local.owners.first_of(local.rank + 1);
   std::vector<std::vector<std::int32_t>> vertices(static_cast<std::size_t>(last - first));
   for (std::int32_t v = 0; v < local.vertex_count(); ++v)
     if (local.owns(v)) vertices[local.block[v] - first].push_back(v);
   std::vector<std::int32_t> number(local.keys.size(), no_index);
+  if (!are_worth_reducing(ranks, local, vertices, number, deadline)) return false;
   for (auto& block : vertices) decide(local, graph_of(local, std::move(block), number), deadline);
   tell_partners(ranks, local);
+  return true;
 }
 
 }  // namespace hexpipe::lns_mpi

@@ -3,6 +3,9 @@
 // takes the vertices that are at most `overlap` edges away from it and that no earlier block takes, so that borders
 // move to and fro and leave no seam. Where an edge joins vertices of two blocks, the vertex of the later block stays as
 // it is; then all blocks can be searched at the same time.
+//
+// A rank may also search its blocks as one: then nothing has to stay as it is between two of them. The order is of
+// blocks all the same, so that a border between two ranks moves to the one side here and to the other there.
 
 #include <cstdint>
 #include <vector>
@@ -18,22 +21,40 @@ struct Region {
   graph::IndependentSet chosen;
 };
 
+// Which blocks are searched as one, and which rank does it.
+class Searchers {
+ public:
+  enum class Kind { blocks, ranks };
+  Searchers(const BlockOwners& owners, Kind kind) : owners_(owners), kind_(kind) {}
+
+  std::int32_t count() const { return kind_ == Kind::blocks ? owners_.blocks() : owners_.ranks(); }
+  std::int32_t of_block(std::int32_t block) const { return kind_ == Kind::blocks ? block : owners_.rank_of(block); }
+  // Those of a rank are consecutive.
+  std::int32_t first_of(int rank) const { return kind_ == Kind::blocks ? owners_.first_of(rank) : rank; }
+
+ private:
+  BlockOwners owners_;
+  Kind kind_;
+};
+
 class Regions {
  public:
   // Every rank draws the same order.
-  Regions(const LocalGraph& local, std::uint64_t seed, std::int64_t round);
+  Regions(const LocalGraph& local, const Searchers& searchers, std::uint64_t seed, std::int64_t round);
 
-  // The region of one of the rank's own blocks.
-  Region extract(std::int32_t block);
+  // The region of one of the rank's own searchers.
+  Region extract(std::int32_t searcher);
 
  private:
   bool stays(std::int32_t v) const;
   bool is_blocked(std::int32_t v) const;
 
   const LocalGraph& local_;
+  std::int32_t first_own_;
+  Searchers searchers_;
   std::vector<std::uint64_t> priority_;                // of each block, all different
   std::vector<std::int32_t> block_;                    // of each vertex, in this round
-  std::vector<std::vector<std::int32_t>> may_change_;  // by block of the rank's own
+  std::vector<std::vector<std::int32_t>> may_change_;  // by searcher of the rank's own
   std::vector<std::int32_t> number_;                   // by vertex: its number in the region that is extracted
 };
 

@@ -6,16 +6,20 @@
 #include <limits>
 
 #include "common/mwis/ground/solution_state.hpp"
+#include "common/run/parallel.hpp"
 #include "common/run/random.hpp"
 #include "tools/lns-mpi/regions.hpp"
 
 namespace hexpipe::lns_mpi {
 namespace {
 
-// Under a time limit, rounds are short, so that borders move often: what lies at a border is not searched. On 200,000
-// points at random and 20 s, 25 rounds end 0.3 % heavier than four, and 64 end 0.1 % lighter than 25, as their coolings
-// are cut off. They are no longer than a minute, so that ranks do not go on for long after one of them was told to stop.
-constexpr double round_share = 1.0 / 32, longest_round = 60;
+// Under a time limit, borders move after each round, because what lies at a border is not searched; but the end of a
+// round cuts off coolings. On 200,000 points at random and 20 s, 4 rounds are worse than 8, and 16 are as good. They
+// are no longer than a minute, so that ranks do not go on for long after one of them was told to stop.
+constexpr double round_share = 1.0 / 8, longest_round = 60;
+// Under a time limit alone, this many fragments at a time, so that the end of a round cuts off few: one that is
+// annealed, as a batch has a quarter as many of these.
+constexpr int fragments_a_thread = 4;
 // A round takes at least this many times as long as taking the regions out of the graph did in the one before.
 constexpr double least_times_extraction = 3;
 // The share of a time limit, as in lns.
@@ -39,15 +43,19 @@ class Rounds {
         options_(options),
         deadline_(deadline),
         progress_(progress),
+        searchers_(local.owners, is_timed_alone() ? Searchers::Kind::ranks : Searchers::Kind::blocks),
+        first_own_(searchers_.first_of(local.rank)),
+        end_own_(searchers_.first_of(local.rank + 1)),
         memories_(memories),
-        block_sizes_(static_cast<std::size_t>(local.owners.blocks()), 0),
+        sizes_(static_cast<std::size_t>(searchers_.count()), 0),
         changed_by_(local.keys.size(), no_index) {
     for (std::int32_t v = 0; v < local.vertex_count(); ++v)
-      if (local.owns(v)) ++block_sizes_[local.block[v]];
-    ranks_.sum(block_sizes_);
-    for (const std::int64_t size : block_sizes_) vertices_ += size;
+      if (local.owns(v)) ++sizes_[searchers_.of_block(local.block[v])];
+    ranks_.sum(sizes_);
+    for (const std::int64_t size : sizes_) vertices_ += size;
+    if (is_timed_alone() && memories_.size() > 1) join_memories();
     usual_round_seconds_ = round_seconds_ = std::isfinite(deadline.remaining())
-                                                ? std::min(longest_round, round_share * deadline.remaining())
+                                                ? std::min(longest_round, share_of_round() * deadline.remaining())
                                                 : std::numeric_limits<double>::infinity();
   }
 
@@ -108,10 +116,9 @@ class Rounds {
 
   void make_maximal() {
     for (std::int64_t round = progress_.round; count_free() > 0; ++round) {
-      Regions regions(local_, options_.search.seed, round);
+      Regions regions(local_, searchers_, options_.search.seed, round);
       changed_.clear();
-      const std::int32_t first = local_.owners.first_of(local_.rank), last = local_.owners.first_of(local_.rank + 1);
-      for (std::int32_t b = first; b < last; ++b) add_free(regions.extract(b));
+      for (std::int32_t s = first_own_; s < end_own_; ++s) add_free(regions.extract(s));
       tell_partners();
     }
     progress_.weight = total_weight(ranks_, local_);
@@ -121,7 +128,7 @@ class Rounds {
     RoundCosts costs;
     const Traffic before = ranks_.traffic();
     const Stopwatch watch;
-    Regions regions(local_, options_.search.seed, progress_.round);
+    Regions regions(local_, searchers_, options_.search.seed, progress_.round);
     extraction_seconds_ = watch.seconds();
     changed_.clear();
     improvements_ = iterations_ = unproven_ = 0;
@@ -154,7 +161,19 @@ class Rounds {
     put_back(region, state.to_set());
   }
 
-  // The number of fragments of this round up to a block, in proportion to the vertices up to there.
+  void join_memories() {
+    memories_.front().join(std::span(memories_).subspan(1));
+    std::fill(memories_.begin() + 1, memories_.end(), BlockMemory());
+  }
+
+  // A time limit alone gives no number of fragments to share, and the result depends on the clock anyway. So each rank
+  // searches its blocks as one.
+  bool is_timed_alone() const { return options_.search.iterations == std::numeric_limits<std::int64_t>::max(); }
+
+  // A searcher that has no others beside it needs no rounds.
+  double share_of_round() const { return searchers_.count() == 1 ? 1 : round_share; }
+
+  // The number of fragments of this round up to a searcher, in proportion to the vertices up to there.
   std::int64_t allotment() const {
     const std::int64_t wanted = std::max<std::int64_t>(options_.fragments_a_round * vertices_ / 1000, 1);
     return std::min(wanted, options_.search.iterations - progress_.allotted);
@@ -165,46 +184,44 @@ class Rounds {
   }
 
   void search_own(Regions& regions) {
-    const std::int32_t first = local_.owners.first_of(local_.rank), last = local_.owners.first_of(local_.rank + 1);
     const Stopwatch watch;
     std::int64_t own = 0, before = 0;
-    for (std::int32_t b = first; b < last; ++b) own += block_sizes_[b];
-    for (std::int32_t b = 0; b < first; ++b) before += block_sizes_[b];
-    for (std::int32_t b = first; b < last; ++b) {
-      const std::int64_t size = block_sizes_[b];
+    for (std::int32_t s = first_own_; s < end_own_; ++s) own += sizes_[s];
+    for (std::int32_t s = 0; s < first_own_; ++s) before += sizes_[s];
+    for (std::int32_t s = first_own_; s < end_own_; ++s) {
+      const std::int64_t size = sizes_[s];
       const double left = std::min(round_seconds_ - watch.seconds(), deadline_.remaining());
       const Deadline deadline =
           std::isfinite(left)
               ? Deadline(left * static_cast<double>(size) / static_cast<double>(std::max<std::int64_t>(own, 1)))
               : Deadline();
-      // A time limit alone gives no number of fragments to share.
-      const bool timed_alone = options_.search.iterations == std::numeric_limits<std::int64_t>::max();
-      const std::int64_t fragments = timed_alone && std::isfinite(left)
+      const std::int64_t fragments = is_timed_alone()
                                          ? options_.search.iterations
                                          : share_of(allotment(), before + size) - share_of(allotment(), before);
-      search(regions, b, fragments, deadline);
+      search(regions, s, fragments, deadline);
       own -= size;
       before += size;
     }
   }
 
-  void search(Regions& regions, std::int32_t block, std::int64_t fragments, const Deadline& deadline) {
+  void search(Regions& regions, std::int32_t searcher, std::int64_t fragments, const Deadline& deadline) {
     if (fragments == 0 || deadline.passed()) {
       ++unproven_;
       return;
     }
     const Stopwatch watch;
-    const Region region = regions.extract(block);
+    const Region region = regions.extract(searcher);
     extraction_seconds_ += watch.seconds();
-    BlockMemory& known = memories_[block - local_.owners.first_of(local_.rank)];
+    BlockMemory& known = memories_[searcher - first_own_];
     mwis::local_search::LnsOptions options = options_.search;
     options.iterations = fragments;
     options.target = std::numeric_limits<std::int64_t>::max();
+    if (is_timed_alone()) options.batch = std::min(options.batch, fragments_a_thread * thread_count());
     // Places that are new to this block begin with the size that fragments have reached elsewhere in it.
     if (known.usual_size() > 0) options.fragment_size = known.usual_size();
     // A different seed for every region.
     options.seed =
-        Random(options.seed, static_cast<std::uint64_t>(progress_.round)).next() + static_cast<std::uint64_t>(block);
+        Random(options.seed, static_cast<std::uint64_t>(progress_.round)).next() + static_cast<std::uint64_t>(searcher);
     mwis::local_search::LnsMemory memory = known.recall(region, local_.keys);
     std::vector<std::int32_t> fragment;
     const auto report = [&](const mwis::local_search::LnsProgress& now) {
@@ -221,7 +238,7 @@ class Rounds {
     unproven_ += result.complete ? 0 : 1;
     const std::size_t before = changed_.size();
     put_back(region, result.solution);
-    for (std::size_t i = before; i < changed_.size(); ++i) changed_by_[changed_[i]] = block;
+    for (std::size_t i = before; i < changed_.size(); ++i) changed_by_[changed_[i]] = searcher;
   }
 
   void put_back(const Region& region, const graph::IndependentSet& solution) {
@@ -233,28 +250,27 @@ class Rounds {
     }
   }
 
-  // Where another block changed a neighbour, a place of a block's memory counts as never tried.
+  // Where another searcher changed a neighbour, a place of a searcher's memory counts as never tried.
   void forget_changed_places() {
-    const std::int32_t first = local_.owners.first_of(local_.rank), last = local_.owners.first_of(local_.rank + 1);
-    for (const std::int32_t v : heard_) changed_by_[v] = local_.owners.blocks();
-    std::vector<std::pair<std::uint64_t, std::int32_t>> changed_near;  // a place, and a block that changed a neighbour
+    for (const std::int32_t v : heard_) changed_by_[v] = searchers_.count();
+    std::vector<std::pair<std::uint64_t, std::int32_t>> changed_near;  // a place, and who changed a neighbour
     for (std::int32_t v = 0; v < local_.vertex_count(); ++v) {
       if (local_.chosen[v] == 0) continue;
-      std::int32_t block = changed_by_[v];
+      std::int32_t searcher = changed_by_[v];
       const auto meet = [&](std::int32_t other) {
-        if (other == no_index || other == block) return;
-        if (block != no_index) changed_near.push_back({local_.keys[v], block});
-        block = other;
+        if (other == no_index || other == searcher) return;
+        if (searcher != no_index) changed_near.push_back({local_.keys[v], searcher});
+        searcher = other;
       };
       for (const std::int32_t u : local_.graph.neighbours_of(v)) meet(changed_by_[u]);
-      if (block != no_index) changed_near.push_back({local_.keys[v], block});
+      if (searcher != no_index) changed_near.push_back({local_.keys[v], searcher});
     }
     std::vector<std::uint64_t> keys;
-    for (std::int32_t b = first; b < last; ++b) {
+    for (std::int32_t s = first_own_; s < end_own_; ++s) {
       keys.clear();
-      for (const auto& [key, block] : changed_near)
-        if (block != b) keys.push_back(key);
-      memories_[b - first].forget_tries(keys);
+      for (const auto& [key, searcher] : changed_near)
+        if (searcher != s) keys.push_back(key);
+      memories_[s - first_own_].forget_tries(keys);
     }
     for (const std::int32_t v : changed_) changed_by_[v] = no_index;
     for (const std::int32_t v : heard_) changed_by_[v] = no_index;
@@ -313,15 +329,17 @@ class Rounds {
   const RoundsOptions& options_;
   const Deadline& deadline_;
   RoundsProgress& progress_;
-  std::vector<BlockMemory>& memories_;
-  std::vector<std::int64_t> block_sizes_;
+  Searchers searchers_;
+  std::int32_t first_own_, end_own_;    // of the searchers
+  std::vector<BlockMemory>& memories_;  // of the own ones, in order
+  std::vector<std::int64_t> sizes_;     // vertices in the blocks of each searcher
   std::int64_t vertices_ = 0;
   double usual_round_seconds_ = 0, round_seconds_ = 0;
   double extraction_seconds_ = 0;    // of the regions of this round
   std::vector<std::uint8_t> given_;  // the solution that the run began with
   std::int64_t given_weight_ = 0;
-  // Vertices of the local graph that changed in this round: here, and on other ranks; and which block did it, or
-  // owners.blocks() for one of another rank, no_index for the others.
+  // Vertices of the local graph that changed in this round: here, and on other ranks; and who did it, or
+  // searchers_.count() for one of another rank, no_index for the others.
   std::vector<std::int32_t> changed_, heard_, changed_by_;
   std::int64_t iterations_ = 0, improvements_ = 0, unproven_ = 0;
   bool stopped_ = false;

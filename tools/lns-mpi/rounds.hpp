@@ -1,6 +1,7 @@
 #pragma once
 // Large neighbourhood search on many machines. In each round, a rank improves the solution in the regions of its blocks
-// by the search of lns, then tells its partners what changed near them.
+// by the search of lns, then tells its partners what changed near them. Under a time limit alone, a rank searches its
+// blocks as one.
 //
 // The result does not depend on the number of ranks unless a time limit ends the search. The regions, their seeds and
 // their numbers of fragments follow from the blocks and the round alone. There are no edges between regions, so it does
@@ -45,8 +46,9 @@ struct RoundCosts {
 };
 
 // In each block alone, takes or leaves out the vertices that can be decided without search, so that some heaviest
-// solution agrees. The solution may lose a little until the search has caught up. All ranks call this together.
-void reduce_blocks(Ranks& ranks, LocalGraph& local, const Deadline& deadline);
+// solution agrees. The solution may lose a little until the search has caught up. Returns false, and decides nothing,
+// where a sample of a large graph shows that this decides too few. All ranks call this together.
+bool reduce_blocks(Ranks& ranks, LocalGraph& local, const Deadline& deadline);
 
 // Begins with the solution in `local`, or continues from `progress` with the choice of an `earlier` run (its keys,
 // ascending, of at least the vertices that this rank owns). A search that was stopped in between has the same result,

@@ -92,7 +92,7 @@ class WholeGraph : public Source {
       if (!ranks.is_first()) return;
       stage_.emplace(context_);
       data = stage_->read({.needs = {Role::graph, Role::solution}});
-      if (blocks_ == 0) blocks_ = usual_blocks(data.graph->vertex_count());
+      if (blocks_ == 0) blocks_ = choose_blocks(data.graph->vertex_count(), ranks.count());
       if (blocks_ < ranks.count())
         throw DataError(
             fmt::format("expected at least a block for each of {} ranks, found {}", ranks.count(), blocks_));
@@ -127,6 +127,12 @@ class WholeGraph : public Source {
   }
 
  private:
+  // Under a limit of iterations, the result must not depend on the number of ranks.
+  std::int32_t choose_blocks(std::int64_t vertices, std::int32_t ranks) const {
+    const std::int32_t usual = usual_blocks(vertices);
+    return context_.common.iterations ? usual : std::max(usual, ranks);
+  }
+
   RunContext context_;
   std::optional<pipeline::Stage> stage_;
 };
