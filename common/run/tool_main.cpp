@@ -288,7 +288,6 @@ int tool_main(int argc, char** argv, const ToolInfo& info, const std::function<v
               const std::function<void(RunContext&)>& run) {
   keep_standard_streams_apart();
   leave_libraries_out_at_exit();
-  reuse_freed_memory();
   install_signal_handlers();
   if (info.searches) stop_searches_on_signal();
 

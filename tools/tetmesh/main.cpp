@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/run/error.hpp"
+#include "common/run/memory.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "formats/pipeline/stage.hpp"
@@ -262,6 +263,8 @@ int main(int argc, char** argv) {
     product.dislocations = std::move(result.dislocations);
     stage.write(product, to_json(result.statistics));
   };
+  // For its many steps, each with arrays of its own. Other tools gain nothing, and buildgraph takes a fifth more memory.
+  reuse_freed_memory();
   std::vector<char*> words = words_for_parsing(argc, argv);
   return tool_main(argc, words.data(), info, declare, run);
 }
