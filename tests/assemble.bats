@@ -416,6 +416,7 @@ for n, run in zip((3, 6, 12), runs):
     assert abs(run["volume"] - n ** 3) < 1e-9 * n ** 3, run
 for coarse, fine in zip(runs, runs[1:]):
     assert coarse["l2"] / fine["l2"] > 3.4 and coarse["h1"] / fine["h1"] > 1.8, (coarse, fine)
+    assert 3.5 < fine["condition"] / coarse["condition"] < 7, (coarse, fine)  # as the square of the cells along an edge
 PYTHON
 }
 

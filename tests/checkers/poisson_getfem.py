@@ -6,6 +6,7 @@ triangles and quads name. For each file one line of JSON:
   patch   greatest error at a vertex when the exact solution is linear (rounding, if the mesh is conforming and valid)
   l2, h1  errors in the L2 norm and the H1 seminorm for sin x cos y + z² x, scaled to three times the bounding box
   size    edge length of a cube of the mean volume of a vertex's share
+  condition  condition number of the stiffness matrix of the vertices without a condition: its greatest eigenvalue by its least
   volume, boundary_faces, tagged_faces
   merged  cells of which GetFEM took two corners for one (it does when an edge is 1000 times shorter than others)
 Boundary faces that no tagged facet names count in boundary_faces only, and get no condition.
@@ -60,16 +61,30 @@ def count_merged(fem):
     return sum(len(set(numbers[a:b])) < b - a for a, b in zip(starts, starts[1:]))
 
 
-def solve(mesh, fem, integration, exact, source):
+def stiffness_of(fem, integration):
     # The Laplacian's own assembly: the generic one of GetFEM 5.4.2 loses entries of some hexes (an asymmetric matrix).
     stiffness = gf.asm_laplacian(integration, fem, fem, np.ones(fem.nbdof()))
+    starts, rows = stiffness.csc_ind()
+    fixed = np.unique(fem.basic_dof_on_region(WHOLE_BOUNDARY))
+    free = np.setdiff1d(np.arange(fem.nbdof()), fixed)
+    return scipy.sparse.csc_matrix((stiffness.csc_val(), rows, starts)), fixed, free
+
+
+def condition_of(fem, integration):
+    matrix, _, free = stiffness_of(fem, integration)
+    inner = matrix[free][:, free]
+    inverse = scipy.sparse.linalg.LinearOperator(inner.shape, scipy.sparse.linalg.splu(inner).solve)
+    # A start of its own, so that the last digits are the same each time.
+    start = np.random.default_rng(1).uniform(size=len(free))
+    greatest, of_inverse = (scipy.sparse.linalg.eigsh(m, k=1, v0=start, tol=1e-6, return_eigenvectors=False)[0] for m in (inner, inverse))
+    return greatest * of_inverse
+
+
+def solve(mesh, fem, integration, exact, source):
     load_vector = np.zeros(fem.nbdof())
     if source is not None:
         load_vector = gf.asm_volumic_source(integration, fem, fem, source[np.newaxis, :]).ravel()
-    starts, rows = stiffness.csc_ind()
-    matrix = scipy.sparse.csc_matrix((stiffness.csc_val(), rows, starts))
-    fixed = np.unique(fem.basic_dof_on_region(WHOLE_BOUNDARY))
-    free = np.setdiff1d(np.arange(fem.nbdof()), fixed)
+    matrix, fixed, free = stiffness_of(fem, integration)
     values = exact.copy()
     values[free] = scipy.sparse.linalg.spsolve(matrix[free][:, free], (load_vector - matrix[:, fixed] @ exact[fixed])[free])
     return values
@@ -100,7 +115,7 @@ def examine(path):
     l2 = gf.asm_generic(integration, 0, f"sqr(u-{u})", -1, "u", 0, fem, values)
     h1 = gf.asm_generic(integration, 0, f"Norm_sqr(Grad_u-{gradient})", -1, "u", 0, fem, values)
     return dict(file=path, patch=float(patch), l2=float(l2 / volume) ** 0.5, h1=float(h1 / volume) ** 0.5 / k,
-                size=float(volume / mesh.nbpts()) ** (1 / 3), volume=float(volume), boundary_faces=int(boundary_faces),
+                condition=float(condition_of(fem, integration)), size=float(volume / mesh.nbpts()) ** (1 / 3), volume=float(volume), boundary_faces=int(boundary_faces),
                 tagged_faces=tagged_faces, merged=int(count_merged(fem)))
 
 
