@@ -62,6 +62,7 @@ def count_merged(fem):
 
 
 def stiffness_of(fem, integration):
+    """The matrix, and the vertices with and without a condition."""
     # The Laplacian's own assembly: the generic one of GetFEM 5.4.2 loses entries of some hexes (an asymmetric matrix).
     stiffness = gf.asm_laplacian(integration, fem, fem, np.ones(fem.nbdof()))
     starts, rows = stiffness.csc_ind()
@@ -70,21 +71,21 @@ def stiffness_of(fem, integration):
     return scipy.sparse.csc_matrix((stiffness.csc_val(), rows, starts)), fixed, free
 
 
-def condition_of(fem, integration):
-    matrix, _, free = stiffness_of(fem, integration)
+def condition_of(matrix, free):
     inner = matrix[free][:, free]
     inverse = scipy.sparse.linalg.LinearOperator(inner.shape, scipy.sparse.linalg.splu(inner).solve)
     # A start of its own, so that the last digits are the same each time.
     start = np.random.default_rng(1).uniform(size=len(free))
-    greatest, of_inverse = (scipy.sparse.linalg.eigsh(m, k=1, v0=start, tol=1e-6, return_eigenvectors=False)[0] for m in (inner, inverse))
+    greatest, of_inverse = (scipy.sparse.linalg.eigsh(operator, k=1, v0=start, tol=1e-6, return_eigenvectors=False)[0]
+                            for operator in (inner, inverse))
     return greatest * of_inverse
 
 
-def solve(mesh, fem, integration, exact, source):
+def solve(fem, integration, stiffness, exact, source):
     load_vector = np.zeros(fem.nbdof())
     if source is not None:
         load_vector = gf.asm_volumic_source(integration, fem, fem, source[np.newaxis, :]).ravel()
-    matrix, fixed, free = stiffness_of(fem, integration)
+    matrix, fixed, free = stiffness
     values = exact.copy()
     values[free] = scipy.sparse.linalg.spsolve(matrix[free][:, free], (load_vector - matrix[:, fixed] @ exact[fixed])[free])
     return values
@@ -102,20 +103,23 @@ def examine(path):
     low, high = mesh.pts().min(axis=1).tolist(), mesh.pts().max(axis=1).tolist()
     k = 3 / max(b - a for a, b in zip(low, high))
 
+    stiffness = stiffness_of(fem, integration)
     linear = 1 + 2 * k * x - 3 * k * y + 5 * k * z
-    patch = np.abs(solve(mesh, fem, integration, linear, None) - linear).max()
+    patch = np.abs(solve(fem, integration, stiffness, linear, None) - linear).max()
 
     X, Y, Z = (f"({k!r}*(X({i + 1})-({low[i]!r})))" for i in range(3))
     u = f"(sin({X})*cos({Y})+{Z}*{Z}*{X})"
     gradient = f"({k!r}*[cos({X})*cos({Y})+{Z}*{Z},-sin({X})*sin({Y}),2*{Z}*{X}])"
     sx, sy, sz = k * (x - low[0]), k * (y - low[1]), k * (z - low[2])
-    values = solve(mesh, fem, integration, np.sin(sx) * np.cos(sy) + sz * sz * sx,
+    values = solve(fem, integration, stiffness, np.sin(sx) * np.cos(sy) + sz * sz * sx,
                    k * k * (2 * np.sin(sx) * np.cos(sy) - 2 * sx))
     volume = gf.asm_generic(integration, 0, "1", -1)
     l2 = gf.asm_generic(integration, 0, f"sqr(u-{u})", -1, "u", 0, fem, values)
     h1 = gf.asm_generic(integration, 0, f"Norm_sqr(Grad_u-{gradient})", -1, "u", 0, fem, values)
+    matrix, _, free = stiffness
     return dict(file=path, patch=float(patch), l2=float(l2 / volume) ** 0.5, h1=float(h1 / volume) ** 0.5 / k,
-                condition=float(condition_of(fem, integration)), size=float(volume / mesh.nbpts()) ** (1 / 3), volume=float(volume), boundary_faces=int(boundary_faces),
+                condition=float(condition_of(matrix, free)),
+                size=float(volume / mesh.nbpts()) ** (1 / 3), volume=float(volume), boundary_faces=int(boundary_faces),
                 tagged_faces=tagged_faces, merged=int(count_merged(fem)))
 
 

@@ -54,15 +54,19 @@ graph::ConflictGraph renumbered(const graph::ConflictGraph& graph, const std::ve
   return result;
 }
 
+graph::IndependentSet numbered_back(std::span<const std::uint32_t> set, const std::vector<std::int32_t>& order) {
+  graph::IndependentSet result;
+  for (const std::uint32_t v : set) result.push_back(order[v]);
+  std::ranges::sort(result);
+  return result;
+}
+
 std::optional<graph::IndependentSet> search_on_bits(const graph::ConflictGraph& graph, std::int64_t needed,
                                                     ground::SearchBudget& budget) {
   const std::vector<std::int32_t> order = least_crowded_first(graph);
   BranchAndBound search;
   if (!search.solve(ground::dense_graph_of(renumbered(graph, order)), needed, budget)) return std::nullopt;
-  graph::IndependentSet set;
-  for (const std::uint32_t v : search.best()) set.push_back(order[v]);
-  std::ranges::sort(set);
-  return set;
+  return numbered_back(search.best(), order);
 }
 
 }  // namespace hexpipe::mwis::exact

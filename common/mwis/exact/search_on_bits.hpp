@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/graph/conflict_graph.hpp"
@@ -25,7 +26,8 @@ bool is_very_dense(const graph::ConflictGraph& graph);
 std::optional<graph::IndependentSet> search_on_bits(const graph::ConflictGraph& graph, std::int64_t needed,
                                                     ground::SearchBudget& budget);
 
-// The graph with its vertices in another order.
+// The graph with its vertices in another order, and a set of it as one of the graph, ascending.
 graph::ConflictGraph renumbered(const graph::ConflictGraph& graph, const std::vector<std::int32_t>& order);
+graph::IndependentSet numbered_back(std::span<const std::uint32_t> set, const std::vector<std::int32_t>& order);
 
 }  // namespace hexpipe::mwis::exact

@@ -177,11 +177,7 @@ std::optional<Filled> HexOpener::fill(std::vector<Facet> skin, std::span<const G
     if ((!joining.touches && !begins) || joining.crosses_tagged) return std::nullopt;
   }
   if (!is_ball(skin)) return std::nullopt;
-  Vec3 middle{};
-  double corners = 0;
-  for (const Facet& facet : skin)
-    for (const Vertex v : facet.vertices()) middle += gap_.points()[v], ++corners;
-  return fill_around(middle * (1 / corners), skin, out, region);
+  return fill_around(middle_of(gap_.points(), skin), skin, out, region);
 }
 
 std::optional<Filled> HexOpener::fill_around(const Vec3& middle, std::span<const Facet> skin,

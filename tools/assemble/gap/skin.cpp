@@ -12,6 +12,18 @@ namespace {
 // Worse cells may be replaced, but may not take the place of others: below this, the sign may be rounding.
 constexpr double surely_valid = 1e-6;
 
+// Extends a skin by one facet of what joins it: the two sides of a facet between both are gone.
+void join(const GapMesh& gap, const Facet& facet, std::vector<Facet>& skin, Joining& joining) {
+  const auto twin = std::ranges::find(skin, facet.reversed());
+  if (twin == skin.end()) {
+    skin.push_back(facet);
+    return;
+  }
+  skin.erase(twin);
+  joining.touches = true;
+  joining.crosses_tagged = joining.crosses_tagged || is_tagged(gap, facet);
+}
+
 }  // namespace
 
 Facet Facet::of(std::span<const Vertex> corners) {
@@ -28,19 +40,26 @@ Facet Facet::reversed() const {
 
 Joining join_skin(const GapMesh& gap, const GapCell& cell, std::vector<Facet>& skin) {
   Joining joining;
-  for_facets(cell.kind, cell.vertices(), [&](const Facet& facet) {
-    const auto twin = std::ranges::find(skin, facet.reversed());
-    if (twin == skin.end()) {
-      skin.push_back(facet);
-      return;
-    }
-    skin.erase(twin);
-    joining.touches = true;
-    joining.crosses_tagged =
-        joining.crosses_tagged ||
-        (!facet.is_quad() && gap.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]}));
-  });
+  for_facets(cell.kind, cell.vertices(), [&](const Facet& facet) { join(gap, facet, skin, joining); });
   return joining;
+}
+
+Joining join_skin(const GapMesh& gap, std::span<const Facet> other, std::vector<Facet>& skin) {
+  Joining joining;
+  for (const Facet& facet : other) join(gap, facet, skin, joining);
+  return joining;
+}
+
+bool is_tagged(const GapMesh& gap, const Facet& facet) {
+  return !facet.is_quad() && gap.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]});
+}
+
+Vec3 middle_of(std::span<const Vec3> points, std::span<const Facet> skin) {
+  Vec3 middle{};
+  double corners = 0;
+  for (const Facet& facet : skin)
+    for (const Vertex v : facet.vertices()) middle += points[v], ++corners;
+  return middle * (1 / corners);
 }
 
 std::optional<Room> room_of(const GapMesh& gap, std::span<const GapIndex> cells, std::size_t most_facets) {

@@ -52,8 +52,14 @@ struct Room {
 struct Joining {
   bool touches = false, crosses_tagged = false;
 };
-// Extends `skin`, that of some cells, by one more cell.
+// Extends `skin`, that of some cells, by one more cell, or by the skin of others.
 Joining join_skin(const GapMesh& gap, const GapCell& cell, std::vector<Facet>& skin);
+Joining join_skin(const GapMesh& gap, std::span<const Facet> other, std::vector<Facet>& skin);
+
+bool is_tagged(const GapMesh& gap, const Facet& facet);
+
+// The mean of the corners of all facets.
+Vec3 middle_of(std::span<const Vec3> points, std::span<const Facet> skin);
 
 // The room of these cells. Nothing if they are of several regions, if a tagged facet or a vertex that has to stay lies
 // between them, or if more than `most_facets` are around them.

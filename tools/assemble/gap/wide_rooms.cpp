@@ -35,31 +35,10 @@ void add(shape::PointStar& star, std::span<const Vec3> points, const Facet& face
            static_cast<int>(corners));
 }
 
-Vec3 middle_of(std::span<const Vec3> points, std::span<const Facet> skin) {
-  Vec3 middle{};
-  double corners = 0;
-  for (const Facet& facet : skin)
-    for (const Vertex v : facet.vertices()) middle += points[v], ++corners;
-  return middle * (1 / corners);
-}
-
-bool is_tagged(const GapMesh& gap, const Facet& facet) {
-  return !facet.is_quad() && gap.is_tagged({facet.corners[0], facet.corners[1], facet.corners[2]});
-}
-
 // Joins a skin to another with which it has a facet in common. False if a facet between them is tagged, or if they do
 // not form a ball.
-bool join_skins(const GapMesh& gap, std::span<const Facet> other, std::vector<Facet>& skin) {
-  for (const Facet& facet : other) {
-    const auto twin = std::ranges::find(skin, facet.reversed());
-    if (twin == skin.end()) {
-      skin.push_back(facet);
-      continue;
-    }
-    if (is_tagged(gap, facet)) return false;
-    skin.erase(twin);
-  }
-  return is_ball(skin);
+bool join_to_ball(const GapMesh& gap, std::span<const Facet> other, std::vector<Facet>& skin) {
+  return !join_skin(gap, other, skin).crosses_tagged && is_ball(skin);
 }
 
 std::vector<Facet> skin_of_cell(const GapCell& cell) {
@@ -96,7 +75,7 @@ bool WideRooms::join(const WideRoom& room, const Facet& facet, WideRoom& wider) 
     if (std::ranges::find(own, facet.reversed()) == own.end()) continue;
     wider.out = room.out, wider.chosen = room.chosen, wider.skin = room.skin;
     wider.out.push_back(c);
-    return join_skins(gap_, own, wider.skin);
+    return join_to_ball(gap_, own, wider.skin);
   }
   return join_chosen(room, facet, wider);
 }
@@ -112,7 +91,7 @@ bool WideRooms::join_chosen(const WideRoom& room, const Facet& facet, WideRoom& 
     if (!own || std::ranges::find(*own, facet.reversed()) == own->end()) continue;
     wider.out = room.out, wider.chosen = room.chosen, wider.skin = room.skin;
     wider.chosen.push_back(k);
-    return join_skins(gap_, *own, wider.skin);
+    return join_to_ball(gap_, *own, wider.skin);
   }
   return false;
 }

@@ -2,8 +2,6 @@
 // rise first, beyond what is good enough, and then have something to yield.
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 #include <vector>
 
 #include "common/mesh/item_lists.hpp"
@@ -95,9 +93,7 @@ std::int64_t Smoother::raise_worst_cells() {
 
 std::int64_t raise_worst_cells(MixedMesh& mesh, const SlidingSurface& sliding) {
   const auto is_poor = [&](CellKind kind, const auto& cell) {
-    const auto at = corner_points(mesh.points, cell);
-    const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
-    return scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(cell.size())) < good_enough;
+    return quality_of(kind, mesh.points, cell) < good_enough;
   };
   // Most of the time would go into what smoothing knows of a mesh.
   if (std::ranges::none_of(mesh.pyramids.cells, [&](const auto& cell) { return is_poor(CellKind::pyramid, cell); }) &&

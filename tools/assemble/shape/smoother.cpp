@@ -169,12 +169,7 @@ std::vector<std::uint64_t> Smoother::states_of_vertices() const {
 
 // The least scaled Jacobian over the corners, for a tet times the square root of 2.
 double Smoother::quality_of(std::int32_t c) {
-  if (std::isnan(quality_[c])) {
-    const auto corners = cells_.corners_of(c);
-    const auto at = corner_points(points_, corners);
-    const double scale = cells_.kind(c) == CellKind::tet ? std::sqrt(2.0) : 1;
-    quality_[c] = scale * least_corner_scaled_jacobian(cells_.kind(c), std::span<const Vec3>(at).first(corners.size()));
-  }
+  if (std::isnan(quality_[c])) quality_[c] = shape::quality_of(cells_.kind(c), points_, cells_.corners_of(c));
   return quality_[c];
 }
 

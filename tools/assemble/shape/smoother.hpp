@@ -2,6 +2,7 @@
 // What smoothing a mesh works with: one vertex after the other (smoother.cpp), and several together (raise_worst.cpp).
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -23,6 +24,14 @@ namespace hexpipe::assemble::shape {
 inline constexpr double hex_weight = 0.5;
 // A smaller gain is not worth another look at the neighbours.
 inline constexpr double least_gain_of_move = 1e-3;
+
+// The least scaled Jacobian of a cell, of a tet times the square root of 2.
+template <class Corners>
+double quality_of(CellKind kind, std::span<const Vec3> points, const Corners& corners) {
+  const auto at = corner_points(points, corners);
+  const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
+  return scale * least_corner_scaled_jacobian(kind, std::span<const Vec3>(at).first(std::size(corners)));
+}
 
 // Cells at each vertex, in flat arrays.
 class Cells {

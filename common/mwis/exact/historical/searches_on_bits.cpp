@@ -64,11 +64,7 @@ ExactResult search_heaviest_first(const graph::ConflictGraph& graph, std::int64_
   Search search;
   ground::SearchBudget budget(std::numeric_limits<std::int64_t>::max(), &deadline, nodes_a_look<Search>);
   std::optional<graph::IndependentSet> better;
-  if (run(search, renumbered(graph, order), weight, budget)) {
-    better.emplace();
-    for (const std::uint32_t v : search.best()) better->push_back(order[v]);
-    std::ranges::sort(*better);
-  }
+  if (run(search, renumbered(graph, order), weight, budget)) better = numbered_back(search.best(), order);
   return result_of(std::move(better), weight, graph, budget);
 }
 
