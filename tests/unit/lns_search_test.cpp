@@ -248,6 +248,17 @@ TEST(OperatorSelection, SharesAmongTheOperatorsItIsGiven) {
   EXPECT_GT(done[index_of(Operator::anneal)], 20);
 }
 
+TEST(OperatorSelection, KeepsTheLeastShares) {
+  OperatorSelection selection({all_operators.begin(), all_operators.end()}, {0.1, 0.1, 0.5});
+  for (int i = 0; i < 100; ++i) {
+    const Operator op = selection.next();
+    selection.record(op, 1e8, op == Operator::exact ? 100 : 0);
+  }
+  EXPECT_NEAR(selection.share_of(Operator::exact), 0.4, 1e-6);
+  EXPECT_NEAR(selection.share_of(Operator::anneal), 0.1, 1e-6);
+  EXPECT_NEAR(selection.share_of(Operator::recombine), 0.5, 1e-6);
+}
+
 TEST(FragmentSolver, NeverLosesWithAnyOperator) {
   Random random(11);
   for (int i = 0; i < 40; ++i) {
@@ -262,7 +273,8 @@ TEST(FragmentSolver, NeverLosesWithAnyOperator) {
       solver.begin(op);
       grower.grow(seed, 60, 120, solver.fragment());
       solver.extract(grower);
-      solver.solve(op == Operator::exact ? 1000 : 20, Random(i), no_deadline, {}, i % 2 == 0);
+      ShortCoolings of_graph(graph, {}, Random(i));
+      solver.solve(op == Operator::exact ? 1000 : 20, Random(i), no_deadline, {}, i % 2 == 0 ? &of_graph : nullptr);
       std::int64_t before = 0, after = 0;
       IndependentSet chosen;
       const auto& vertices = solver.fragment().vertices;
@@ -290,7 +302,8 @@ TEST(FragmentSolver, RecombinesShortCoolings) {
     solver.begin(Operator::recombine);
     grower.grow(state.to_set().front(), 600, 600, solver.fragment());
     solver.extract(grower);
-    solver.solve(2, Random(index), no_deadline, Cooling::for_chosen(50), short_coolings);
+    ShortCoolings search(graph, {}, Random(index));
+    solver.solve(2, Random(index), no_deadline, Cooling::for_chosen(50), short_coolings ? &search : nullptr);
     std::int64_t weight = 0;
     for (std::size_t i = 0; i < solver.fragment().vertices.size(); ++i)
       if (solver.chooses(i)) weight += graph.weights[solver.fragment().vertices[i]];
@@ -299,6 +312,27 @@ TEST(FragmentSolver, RecombinesShortCoolings) {
   std::int64_t with = 0, without = 0;  // half of those with short coolings anneal by kicks
   for (int i = 0; i < 10; ++i) with += weight_with(true, i), without += weight_with(false, i);
   EXPECT_GT(with, without);
+}
+
+// A fragment that is the whole graph goes on with its coolings; others do not touch them.
+TEST(FragmentSolver, GoesOnWithTheCoolingsOfTheWholeGraph) {
+  Random random(13);
+  const ConflictGraph graph = hexpipe::testing::random_graph(300, 0.1, 200, random);
+  ShortCoolings of_graph(graph, {}, Random(1));
+  for (const std::size_t size : {std::size_t{300}, std::size_t{100}}) {
+    const double before = of_graph.touched();
+    for (int i = 0; i < 10; ++i) {  // half of them anneal by kicks
+      SolutionState state(graph);
+      state.make_maximal();
+      FragmentGrower grower(state, Random(9));
+      FragmentSolver solver;
+      solver.begin(Operator::recombine);
+      grower.grow(state.to_set().front(), size, size, solver.fragment());
+      solver.extract(grower);
+      solver.solve(1, Random(i), no_deadline, Cooling::for_chosen(50), &of_graph);
+    }
+    EXPECT_EQ(of_graph.touched() > before, size == 300);
+  }
 }
 
 TEST(Lns, FindsTheOptimumOfSmallGraphs) {

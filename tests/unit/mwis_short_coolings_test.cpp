@@ -88,7 +88,7 @@ TEST(ShortCoolings, AreOfDifferentLengths) {
   const ConflictGraph graph = hexpipe::testing::random_graph(100, 0.1, 200, random);
   ShortCoolings search(graph, {}, Random(1));
   for (const std::int64_t coolings : {1, 2, 3, 3, 4, 5, 6, 6, 7, 7, 7, 7, 7, 8}) {
-    search.run(100000, no_deadline);
+    search.run(300000, no_deadline);  // the tabu search takes as long as two thirds of them
     EXPECT_EQ(search.coolings(), coolings);
   }
 }

@@ -325,12 +325,12 @@ TEST(PointSearch, BringsHexesAndIsTheSameForAnyThreads) {
                          fill_all);
   };
   for (const bool changes_surface : {false, true}) {
-    const PointSearchResult found = search(changes_surface, 20, Deadline());
+    const PointSearchResult found = search(changes_surface, 10, Deadline());
     const PointSearchResult again = [&] {
       const ThreadLimit one_thread(1);
-      return search(changes_surface, 20, Deadline());
+      return search(changes_surface, 10, Deadline());
     }();
-    EXPECT_EQ(found.summary.rounds, 20u);
+    EXPECT_EQ(found.summary.rounds, 10u);
     EXPECT_GE(found.summary.changes, 5u);
     EXPECT_GT(found.summary.share, found.summary.share_before + 0.02);
     EXPECT_LE(found.summary.share, 1 + 1e-9);

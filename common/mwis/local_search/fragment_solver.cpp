@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/mwis/local_search/recombination.hpp"
-#include "common/mwis/local_search/short_coolings.hpp"
 
 namespace hexpipe::mwis::local_search {
 namespace {
@@ -29,15 +28,19 @@ void FragmentSolver::extract(FragmentGrower& grower) {
 }
 
 void FragmentSolver::solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual,
-                           bool short_coolings) {
+                           ShortCoolings* short_coolings) {
   if (operator_ == Operator::exact)
     solve_exactly(budget, deadline);
   else if (operator_ == Operator::anneal)
     anneal(budget, random, deadline, usual);
-  else if (short_coolings && random.below(2) == 0)  // kicks alone lose on C2000.9, short coolings on frb59-26-5
-    recombine_short_coolings(budget, random, deadline);
-  else
+  else if (short_coolings == nullptr || random.below(2) == 0)  // each of both finds what the other does not
     recombine(budget, random, deadline, usual);
+  else if (sparse_.vertex_count() == short_coolings->vertex_count())
+    recombine_short_coolings(budget, deadline, *short_coolings);
+  else {
+    ShortCoolings of_fragment(sparse_, {}, random);
+    recombine_short_coolings(budget, deadline, of_fragment);
+  }
 }
 
 double FragmentSolver::work_a_kick(const graph::ConflictGraph& graph) {
@@ -65,10 +68,11 @@ void FragmentSolver::recombine(std::int64_t kicks_a_vertex, Random random, const
   choose(hexpipe::mwis::local_search::recombine(sparse_, start_, cool(search, usual, kicks_a_vertex, deadline)));
 }
 
-void FragmentSolver::recombine_short_coolings(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline) {
-  ShortCoolings search(sparse_, {}, random);
+void FragmentSolver::recombine_short_coolings(std::int64_t kicks_a_vertex, const Deadline& deadline,
+                                              ShortCoolings& search) {
+  const double before = search.touched();
   search.run(ShortCoolings::trials_a_kick * kicks_a_vertex * sparse_.vertex_count(), deadline);
-  work_ = work_a_touched_neighbour * search.touched();
+  work_ = work_a_touched_neighbour * (search.touched() - before);
   choose(hexpipe::mwis::local_search::recombine(sparse_, start_, search.best()));
 }
 

@@ -8,6 +8,7 @@
 #include "common/mwis/local_search/annealing.hpp"
 #include "common/mwis/local_search/fragment.hpp"
 #include "common/mwis/local_search/operator_selection.hpp"
+#include "common/mwis/local_search/short_coolings.hpp"
 
 namespace hexpipe::mwis::local_search {
 
@@ -23,10 +24,10 @@ class FragmentSolver {
   // Copies the graph of the fragment; solve needs nothing else afterwards.
   void extract(FragmentGrower& grower);
   // `budget` is the greatest number of branch-and-bound nodes for the exact operator, and the number of kicks per
-  // vertex for the others. `usual`: temperatures that suit the whole graph. `short_coolings`: whether these suit it,
-  // too.
+  // vertex for the others. `usual`: temperatures that suit the whole graph. `short_coolings`: of the whole graph, if
+  // they suit it; a fragment that is all of it goes on with them, and others make their own.
   void solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual = {},
-             bool short_coolings = false);
+             ShortCoolings* short_coolings = nullptr);
 
   // After solve: by place in fragment().vertices, a set that is not lighter.
   bool chooses(std::size_t i) const { return bits::test(chosen_.data(), i); }
@@ -42,7 +43,7 @@ class FragmentSolver {
   void anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual);
   void recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual);
   // In about the time of so many kicks.
-  void recombine_short_coolings(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline);
+  void recombine_short_coolings(std::int64_t kicks_a_vertex, const Deadline& deadline, ShortCoolings& search);
   graph::IndependentSet cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
                              const Deadline& deadline);
   void choose(const graph::IndependentSet& set);

@@ -8,12 +8,6 @@ namespace {
 
 // Gains made before this many nanoseconds of work with the same operator count a third.
 constexpr double memory = 3e8;
-// The share that each operator keeps at least, because its gains may come later.
-constexpr std::array least_shares{0.2, 0.2, 0.1};
-
-double least_share_of(Operator op) {
-  return least_shares[index_of(op)];
-}
 
 }  // namespace
 
@@ -24,9 +18,9 @@ Operator OperatorSelection::next() const {
 
 double OperatorSelection::share_of(Operator op) const {
   double yields = 0, left = 1;
-  for (const Operator each : operators_) yields += score_of(each).yield, left -= least_share_of(each);
+  for (const Operator each : operators_) yields += score_of(each).yield, left -= least_shares_[index_of(each)];
   const double earned = yields > 0 ? score_of(op).yield / yields : 1 / static_cast<double>(operators_.size());
-  return least_share_of(op) + left * earned;
+  return least_shares_[index_of(op)] + left * earned;
 }
 
 void OperatorSelection::record(Operator op, double work, double gain) {

@@ -30,9 +30,14 @@ using OperatorScores = std::array<OperatorScore, all_operators.size()>;  // by o
 
 class OperatorSelection {
  public:
-  // Needs at least one operator. Each keeps some share.
-  explicit OperatorSelection(std::vector<Operator> operators = {all_operators.begin(), all_operators.end()})
-      : operators_(std::move(operators)) {}
+  // The share that each operator keeps at least, because its gains may come later; below 1 in all.
+  using LeastShares = std::array<double, all_operators.size()>;
+  static constexpr LeastShares usual_least_shares{0.2, 0.2, 0.1};
+
+  // Needs at least one operator.
+  explicit OperatorSelection(std::vector<Operator> operators = {all_operators.begin(), all_operators.end()},
+                             const LeastShares& least_shares = usual_least_shares)
+      : operators_(std::move(operators)), least_shares_(least_shares) {}
 
   // Growing a fragment and putting it back takes a microsecond, even if there is nothing to do in between. An operator
   // whose work counted as nothing would get every next turn, for ever.
@@ -54,6 +59,7 @@ class OperatorSelection {
   const OperatorScore& score_of(Operator op) const { return scores_[index_of(op)]; }
 
   std::vector<Operator> operators_;
+  LeastShares least_shares_;
   OperatorScores scores_;
 };
 

@@ -24,6 +24,7 @@ class PushWalk {
   // The vertices drawn, and the total number of neighbours of those that went in or out. Both take the time.
   std::int64_t trials() const { return trials_; }
   std::int64_t touched() const { return touched_; }
+  std::int32_t vertex_count() const { return state_.graph().vertex_count(); }
   std::int64_t best_weight() const { return best_weight_; }
   graph::IndependentSet best() const { return is_at_best_ ? state_.to_set() : best_; }
 

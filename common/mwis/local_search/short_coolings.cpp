@@ -1,8 +1,9 @@
 #include "common/mwis/local_search/short_coolings.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+
+#include "common/mwis/local_search/luby.hpp"
 
 namespace hexpipe::mwis::local_search {
 namespace {
@@ -23,16 +24,9 @@ constexpr double share_of_last = 0.2;  // in the usual temperature
 constexpr std::int64_t trials_a_vertex = 1000;
 constexpr std::int64_t coolings_to_grow = 32;
 constexpr std::int64_t steps_a_cooling = 50;
-
-// The sequence 1, 1, 2, 1, 1, 2, 4, ...: each length gets the same time in all (Luby, Sinclair, Zuckerman 1993),
-// because nobody knows which one suits the graph.
-std::int64_t luby(std::int64_t i) {
-  for (auto k = static_cast<std::uint64_t>(i);;) {
-    const std::uint64_t next = std::bit_ceil(k + 1);
-    if (k + 1 == next) return static_cast<std::int64_t>(next / 2);
-    k -= next / 2 - 1;
-  }
-}
+// The tabu search gets so many times the work of the walk, in turns of some milliseconds. It finds the best known set
+// of C2000.9 five times as often, and as good ones on frb59-26-5; on auctions (in608) the walk finds better ones.
+constexpr std::int64_t tabu_to_walk = 2, trials_a_turn = 1 << 20;
 
 }  // namespace
 
@@ -50,9 +44,20 @@ ShortCoolings::ShortCoolings(const graph::ConflictGraph& graph, const graph::Ind
   hot_ = first_hot * mean;
   cold_ = first_cold * mean;
   usual_temperature_ = std::sqrt(hot_ * cold_);
+  if (PushGains::suit(graph)) tabu_.emplace(graph, Random(random.next()));
 }
 
 void ShortCoolings::run(std::int64_t trials, const Deadline& deadline) {
+  if (!tabu_) return cool(trials, deadline);
+  for (std::int64_t left = trials; left > 0 && !deadline.passed(); left -= trials_a_turn) {
+    granted_ += std::min(left, trials_a_turn);
+    cool(granted_ / (1 + tabu_to_walk) - walk_.trials(), deadline);
+    const double wanted = tabu_to_walk * touched_by_walk() - touched_by_tabu();
+    tabu_->run(static_cast<std::int64_t>(wanted / tabu_->touched_a_move()), deadline);
+  }
+}
+
+void ShortCoolings::cool(std::int64_t trials, const Deadline& deadline) {
   while (trials > 0 && !deadline.passed()) {
     if (done_ == trials_) begin_cooling();
     const std::int64_t step = std::max<std::int64_t>(1, trials_ / steps_a_cooling);
@@ -92,6 +97,14 @@ double ShortCoolings::temperature() const {
 }
 
 double ShortCoolings::touched() const {
+  return touched_by_walk() + touched_by_tabu();
+}
+
+double ShortCoolings::touched_by_tabu() const {
+  return tabu_ ? static_cast<double>(tabu_->moves()) * tabu_->touched_a_move() : 0;
+}
+
+double ShortCoolings::touched_by_walk() const {
   constexpr double touched_a_trial = 1.5;
   return static_cast<double>(walk_.touched()) + touched_a_trial * static_cast<double>(walk_.trials());
 }

@@ -1,0 +1,146 @@
+#include "common/mwis/local_search/push_tabu.hpp"
+
+#include <algorithm>
+
+#include "common/mwis/local_search/luby.hpp"
+
+namespace hexpipe::mwis::local_search {
+namespace {
+
+// Of the shortest start. On C2000.9-w it finds 10,999 as often with 30,000 as with a million; on frb59-26-5-w longer
+// ones find more.
+constexpr std::int64_t least_in_vain = 20'000;
+constexpr std::int64_t moves_a_look_at_the_clock = 256;
+// Measured on C2000.9-w and frb59-26-5-w: a move takes as long as touching a neighbour for each of so many vertices.
+constexpr double vertices_a_touched = 20;
+
+}  // namespace
+
+PushTabu::PushTabu(const graph::ConflictGraph& graph, Random random)
+    : graph_(ground::dense_graph_of(graph)),
+      random_(random),
+      gains_(PushGains::make(graph_)),
+      chosen_(graph_.words(), 0),
+      best_(graph_.words(), 0) {}
+
+void PushTabu::run(std::int64_t moves, const Deadline& deadline) {
+  if (graph_.size() == 0) return;
+  for (std::int64_t i = 0; i < moves; ++i) {
+    if (i % moves_a_look_at_the_clock == 0 && deadline.passed()) break;
+    if (in_vain_ == most_in_vain_) begin();
+    move();
+  }
+}
+
+void PushTabu::begin() {
+  if (starts_ > 0) end();
+  ++starts_;
+  heaviest_ = 0;
+  in_vain_ = 0;
+  most_in_vain_ = least_in_vain;
+  const std::size_t best = best_tenure();
+  const std::uint64_t draw = random_.below(8);
+  tenure_ = draw == 0 ? random_.below(tenures.size()) : draw == 1 && best > 0 ? best - 1 : draw == 2 ? best + 1 : best;
+  tenure_ = std::min(tenure_, tenures.size() - 1);
+  if (tenure_ == best && experience_[best].starts > 0) most_in_vain_ *= luby(++long_starts_);
+}
+
+void PushTabu::end() {
+  Experience& experience = experience_[tenure_];
+  ++experience.starts;
+  experience.reached += (static_cast<double>(heaviest_) - experience.reached) / static_cast<double>(experience.starts);
+  for (std::vector<std::size_t>& vertices : free_at_) free_tabu(vertices);
+  const std::vector<bits::Word> chosen = chosen_;
+  bits::for_each(chosen.data(), chosen.size(), [&](std::size_t v) {
+    go_out(v);
+    gains_->free(v);
+  });
+}
+
+// The one whose starts reach most in the mean, after one start with each.
+std::size_t PushTabu::best_tenure() const {
+  const auto untried = std::ranges::find(experience_, 0, &Experience::starts);
+  const auto best =
+      untried != experience_.end() ? untried : std::ranges::max_element(experience_, {}, &Experience::reached);
+  return static_cast<std::size_t>(best - experience_.begin());
+}
+
+void PushTabu::move() {
+  ++moves_;
+  ++in_vain_;
+  free_tabu(free_at_[static_cast<std::size_t>(moves_) % free_at_.size()]);
+  if (!gains_->settle()) return;
+  const std::size_t v = gains_->greatest(random_);
+  pushed_out_.clear();
+  const bits::Word* const row = graph_.row(v);
+  for (std::size_t w = 0; w < chosen_.size(); ++w)
+    for (bits::Word word = chosen_[w] & row[w]; word != 0; word &= word - 1)
+      pushed_out_.push_back(64 * w + static_cast<std::size_t>(std::countr_zero(word)));
+  for (const std::size_t u : pushed_out_) {
+    go_out(u);
+    const std::int64_t until = moves_ + tenures[tenure_] +
+                               static_cast<std::int64_t>(random_.below(static_cast<std::uint64_t>(tenures[tenure_])));
+    free_at_[static_cast<std::size_t>(until) % free_at_.size()].push_back(u);
+  }
+  come_in(v);
+  if (weight_ <= heaviest_) return;
+  heaviest_ = weight_;
+  in_vain_ = 0;
+  if (weight_ <= best_weight_) return;
+  best_weight_ = weight_;
+  best_ = chosen_;
+}
+
+void PushTabu::come_in(std::size_t v) {
+  bits::insert(chosen_.data(), v);
+  weight_ += graph_.weight(v);
+  gains_->bar(v);
+  gains_->come_in(v);
+}
+
+// It stays barred.
+void PushTabu::go_out(std::size_t v) {
+  bits::erase(chosen_.data(), v);
+  weight_ -= graph_.weight(v);
+  gains_->go_out(v);
+}
+
+void PushTabu::free_tabu(std::vector<std::size_t>& vertices) {
+  for (const std::size_t v : vertices) gains_->free(v);
+  vertices.clear();
+}
+
+graph::IndependentSet PushTabu::best() const {
+  graph::IndependentSet set;
+  bits::for_each(best_.data(), best_.size(), [&](std::size_t v) { set.push_back(static_cast<std::int32_t>(v)); });
+  return set;
+}
+
+bool PushTabu::check() const {
+  std::vector<bool> barred(graph_.size());
+  std::int64_t weight = 0;
+  bool independent = true;
+  bits::for_each(chosen_.data(), chosen_.size(), [&](std::size_t v) {
+    barred[v] = true;
+    weight += graph_.weight(v);
+  });
+  for (const std::vector<std::size_t>& vertices : free_at_)
+    for (const std::size_t v : vertices) barred[v] = true;
+  gains_->settle();
+  for (std::size_t v = 0; v < graph_.size(); ++v) {
+    std::int64_t gain = graph_.weight(v);
+    bits::for_each(chosen_.data(), chosen_.size(), [&](std::size_t u) {
+      if (!graph_.has_edge(u, v)) return;
+      gain -= graph_.weight(u);
+      independent = independent && !bits::test(chosen_.data(), v);
+    });
+    if (!barred[v] && gains_->gain(v) != gain) return false;
+  }
+  return independent && weight == weight_;
+}
+
+double PushTabu::touched_a_move() const {
+  return 4 + static_cast<double>(graph_.size()) / vertices_a_touched;
+}
+
+}  // namespace hexpipe::mwis::local_search

@@ -1,0 +1,75 @@
+#pragma once
+// Tabu search over pushes (multi-neighbourhood tabu search: Wu, Hao, Glover 2012): in each move the vertex comes in
+// that gains most, or loses least, though its chosen neighbours go out; those may not come back for some moves. After
+// many moves in vain it begins anew from nothing. Where few vertices are chosen this finds what coolings miss
+// (docs/log/mwis.md).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/graph/conflict_graph.hpp"
+#include "common/mwis/ground/dense_graph.hpp"
+#include "common/mwis/local_search/push_gains.hpp"
+#include "common/run/deadline.hpp"
+#include "common/run/random.hpp"
+
+namespace hexpipe::mwis::local_search {
+
+class PushTabu {
+ public:
+  // PushGains must suit the graph.
+  PushTabu(const graph::ConflictGraph& graph, Random random);
+
+  // Makes so many more moves; fewer if the deadline passes. It goes on where the last call ended.
+  void run(std::int64_t moves, const Deadline& deadline);
+
+  std::int64_t best_weight() const { return best_weight_; }
+  // Ascending.
+  graph::IndependentSet best() const;
+  std::int64_t moves() const { return moves_; }
+  // For how many moves at least, and less than twice as many, a vertex stays out in the starts that reach most.
+  std::int64_t usual_tenure() const { return tenures[best_tenure()]; }
+  // What a move takes, in neighbours touched by a walk.
+  double touched_a_move() const;
+
+  // Whether the gains are right; for tests.
+  bool check() const;
+
+ private:
+  static constexpr std::array<std::int64_t, 7> tenures{5, 7, 10, 14, 20, 28, 40};
+
+  // What the starts with a tenure have reached.
+  struct Experience {
+    std::int64_t starts = 0;
+    double reached = 0;  // in the mean
+  };
+
+  void begin();
+  void end();
+  std::size_t best_tenure() const;
+  void move();
+  void come_in(std::size_t v);
+  void go_out(std::size_t v);
+  void free_tabu(std::vector<std::size_t>& vertices);
+
+  ground::DenseGraph graph_;
+  Random random_;
+  std::unique_ptr<PushGains> gains_;
+  std::vector<bits::Word> chosen_;
+  std::int64_t weight_ = 0;
+  std::array<std::vector<std::size_t>, static_cast<std::size_t>(2 * tenures.back())> free_at_;  // by move, modulo
+  std::vector<std::size_t> pushed_out_;
+  std::int64_t moves_ = 0, in_vain_ = 0;
+  std::array<Experience, tenures.size()> experience_;
+  std::int64_t starts_ = 0, long_starts_ = 0;
+  std::size_t tenure_ = 0;         // of this start: its place in tenures
+  std::int64_t most_in_vain_ = 0;  // of this start
+  std::int64_t heaviest_ = 0;      // since it began anew
+  std::int64_t best_weight_ = 0;
+  std::vector<bits::Word> best_;
+};
+
+}  // namespace hexpipe::mwis::local_search
