@@ -42,6 +42,8 @@ constexpr double least_gain_before_second_trial = 5 * least_gain_of_trial;
 // has to gain as much. On spot of 121,000 vertices the third gained 0.0103 %, a fourth nothing, and cooling slowly
 // 0.0003 %.
 constexpr std::int32_t many_vertices = 65536;
+// How many times the time of kicks short coolings take beside them. On auctions (in608) kicks find what they do not.
+constexpr std::int64_t coolings_to_kicks = 3;
 
 graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vector<double> merits,
                                      const InitsolOptions& options, std::int64_t index) {
@@ -76,8 +78,8 @@ class TabuStart : public Search {
   TabuSearch search_;
 };
 
-// One long cooling by kicks. Where short coolings suit the graph, they take about as long beside it; given temperatures
-// leave them out, because they find their own.
+// One long cooling by kicks. Where short coolings suit the graph, they take several times as long beside it; given
+// temperatures leave them out, because they find their own.
 class AnnealedStart : public Search {
  public:
   AnnealedStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const InitsolOptions& options,
@@ -92,7 +94,8 @@ class AnnealedStart : public Search {
   }
   void run(std::int64_t moves, double progress, const Deadline& deadline) override {
     search_.run(moves, unit_ * cooling_.at(progress), deadline);
-    if (short_coolings_) short_coolings_->run(mwis::local_search::ShortCoolings::trials_a_kick * moves, deadline);
+    if (short_coolings_)
+      short_coolings_->run(coolings_to_kicks * mwis::local_search::ShortCoolings::trials_a_kick * moves, deadline);
   }
   std::int64_t moves() const override { return search_.kicks(); }
   std::int64_t best_weight() const override {

@@ -33,7 +33,7 @@ void FragmentSolver::solve(std::int64_t budget, Random random, const Deadline& d
     solve_exactly(budget, deadline);
   else if (operator_ == Operator::anneal)
     anneal(budget, random, deadline, usual);
-  else if (short_coolings == nullptr || random.below(2) == 0)  // each of both finds what the other does not
+  else if (short_coolings == nullptr || random.below(4) == 0)  // each of both finds what the other does not
     recombine(budget, random, deadline, usual);
   else if (sparse_.vertex_count() == short_coolings->vertex_count())
     recombine_short_coolings(budget, deadline, *short_coolings);

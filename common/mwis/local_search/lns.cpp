@@ -58,7 +58,7 @@ double vertices_of_sample(const graph::ConflictGraph& graph) {
 
 // On C2000.9 all gains of the last seconds come from searching the whole graph anew, and they are rare. On auctions
 // (in608) fragments that are solved exactly or annealed are needed, too.
-constexpr OperatorSelection::LeastShares least_shares_beside_short_coolings{0.1, 0.1, 0.5};
+constexpr OperatorSelection::LeastShares least_shares_beside_short_coolings{0.1, 0.1, 0.6};
 
 class Lns {
  public:
