@@ -1,8 +1,7 @@
 #include "common/mwis/local_search/push_tabu.hpp"
 
 #include <algorithm>
-
-#include "common/mwis/local_search/luby.hpp"
+#include <bit>
 
 namespace hexpipe::mwis::local_search {
 namespace {
@@ -15,6 +14,14 @@ constexpr std::int64_t moves_a_look_at_the_clock = 256;
 constexpr double vertices_a_touched = 20;
 
 }  // namespace
+
+std::int64_t luby(std::int64_t i) {
+  for (auto k = static_cast<std::uint64_t>(i);;) {
+    const std::uint64_t next = std::bit_ceil(k + 1);
+    if (k + 1 == next) return static_cast<std::int64_t>(next / 2);
+    k -= next / 2 - 1;
+  }
+}
 
 PushTabu::PushTabu(const graph::ConflictGraph& graph, Random random)
     : graph_(ground::dense_graph_of(graph)),
@@ -32,6 +39,8 @@ void PushTabu::run(std::int64_t moves, const Deadline& deadline) {
   }
 }
 
+// Most starts have the best tenure so far, and only these are long; one in eight has the next shorter one, one the next
+// longer one, one any.
 void PushTabu::begin() {
   if (starts_ > 0) end();
   ++starts_;
@@ -40,8 +49,10 @@ void PushTabu::begin() {
   most_in_vain_ = least_in_vain;
   const std::size_t best = best_tenure();
   const std::uint64_t draw = random_.below(8);
-  tenure_ = draw == 0 ? random_.below(tenures.size()) : draw == 1 && best > 0 ? best - 1 : draw == 2 ? best + 1 : best;
-  tenure_ = std::min(tenure_, tenures.size() - 1);
+  tenure_ = best;
+  if (draw == 0) tenure_ = random_.below(tenures.size());
+  if (draw == 1 && best > 0) tenure_ = best - 1;
+  if (draw == 2 && best + 1 < tenures.size()) tenure_ = best + 1;
   if (tenure_ == best && experience_[best].starts > 0) most_in_vain_ *= luby(++long_starts_);
 }
 

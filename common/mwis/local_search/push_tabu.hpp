@@ -18,6 +18,10 @@
 
 namespace hexpipe::mwis::local_search {
 
+// How long the i-th run of a search that begins anew is, from 1: 1, 1, 2, 1, 1, 2, 4, ... Each length gets the same
+// time in all (Luby, Sinclair, Zuckerman 1993), because nobody knows which one suits the graph.
+std::int64_t luby(std::int64_t i);
+
 class PushTabu {
  public:
   // PushGains must suit the graph.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/mwis/local_search/luby.hpp"
-
 namespace hexpipe::mwis::local_search {
 namespace {
 
