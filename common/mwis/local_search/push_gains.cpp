@@ -75,6 +75,7 @@ void apply(const Change<Vector>* changes, std::size_t words, Aligned<Vector>* ga
         Vector& at = gains[(w * pieces_a_word<Vector> + piece) * vectors_a_piece<Vector> + j].lanes;
         Vector sum = at;
         for (std::size_t i = 0; i < count; ++i) {
+          // Made anew for each vector: gcc 12 fills an array of vectors lane by lane.
           const Vector members = Vector{} + static_cast<Gain>(changes[i].row[w] >> (piece * 8 * sizeof(Gain)));
           sum += ((members & bits_of_lanes<Vector>[j].lanes) != 0) & by[i];
         }
@@ -115,6 +116,7 @@ HEXPIPE_ANY_REGISTERS void apply_changes(const Change<Wide>* changes, std::size_
                                          Aligned<Wide>& greatest) {
   apply_some(changes, count, words, gains, greatest_of_block, greatest);
 }
+
 template <class Vector>
 class GainsIn final : public PushGains {
   using Gain = GainOf<Vector>;

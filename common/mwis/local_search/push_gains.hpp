@@ -33,8 +33,7 @@ class PushGains {
   virtual std::optional<std::int64_t> settle() = 0;
   // Of a vertex that is not barred, after settle().
   virtual std::int64_t gain(std::size_t v) const = 0;
-  // A vertex with the greatest gain, which settle() has just returned: the first behind a random place, and there the
-  // first behind another.
+  // A vertex with the gain that settle() has just returned, by chance if there are several.
   virtual std::size_t greatest(Random& random) const = 0;
 };
 
