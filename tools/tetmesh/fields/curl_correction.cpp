@@ -23,6 +23,9 @@ namespace hexpipe::tetmesh::fields {
 namespace {
 
 constexpr std::int32_t links_in_block = 2048;
+// So many blocks are summed up at the same time, because each addition waits for the one before it in its block.
+constexpr std::int32_t blocks_at_once = 4;
+constexpr std::int32_t links_at_once = blocks_at_once * links_in_block;
 // Loops are cut into parts of at least this many blocks of links, and into twice as many parts as there are threads.
 // There are no parts where too large a share of the bundles would be in several, as where neighbours have numbers far
 // apart.
@@ -44,7 +47,7 @@ class CurlSolver {
 
   std::vector<float> solve() {
     start();
-    double product = add_products(rest_, rest_, [](std::int64_t) {});
+    double product = add_products(rest_, rest_, [](std::int64_t, std::int64_t) {});
     const double enough = limits_.tolerance * limits_.tolerance * product;
     for (int k = 0; k < limits_.most_iterations && product > enough; ++k) {
       const auto step = static_cast<float>(product / find_image());
@@ -58,32 +61,56 @@ class CurlSolver {
  private:
   void number_links(Bundles<K>& bundles);
   void deal_out(const Bundles<K>& bundles);
-  // Calls find(link) for the links from begin to end, and returns the product of their numbers then. Blocks of links
-  // have sums of their own, so that parts and threads do not change the result.
-  template <class Find>
-  static double product_of_block(const ValuesOfAll<K>& a, const ValuesOfAll<K>& b, std::int64_t begin, std::int64_t end,
-                                 Find&& find) {
+  using Products = std::array<double, blocks_at_once>;
+  // The products of the numbers of links from begin to end, which are blocks_at_once blocks at most, for each block.
+  // Blocks have sums of their own, so that parts and threads do not change the result.
+  static Products products_of_blocks(const ValuesOfAll<K>& a, const ValuesOfAll<K>& b, std::int64_t begin,
+                                     std::int64_t end) {
     using Sums = Eigen::Array<double, Values<K>::RowsAtCompileTime, 1>;
-    Sums sums = Sums::Zero();
-    for (std::int64_t link = begin; link < end; ++link) {
-      find(link);
-      sums += a[link].template cast<double>() * b[link].template cast<double>();
+    std::array<Sums, blocks_at_once> sums;
+    sums.fill(Sums::Zero());
+    const auto add = [&](std::int64_t link, Sums& sum) {
+      sum += a[link].template cast<double>() * b[link].template cast<double>();
+    };
+    if (end - begin == links_at_once) {
+      for (std::int64_t link = begin; link < begin + links_in_block; ++link)
+        for (std::int64_t block = 0; block < blocks_at_once; ++block) add(link + block * links_in_block, sums[block]);
+    } else {
+      for (std::int64_t link = begin; link < end; ++link) add(link, sums[(link - begin) / links_in_block]);
     }
-    return sums.sum();
+    Products products;
+    std::ranges::transform(sums, products.begin(), [](const Sums& sum) { return sum.sum(); });
+    return products;
   }
-  // The same for all links, in parallel.
+  static double sum_after(double sum, const Products& products) {
+    return std::accumulate(products.begin(), products.end(), sum);
+  }
+  // Calls find(begin, end) for all links in pieces, and returns the product of their numbers then, in parallel.
   template <class Find>
   double add_products(const ValuesOfAll<K>& a, const ValuesOfAll<K>& b, Find&& find) const {
     double sum = 0;
     parallel_in_order(
-        static_cast<std::int64_t>(links_.size()), links_in_block,
-        [&](std::int64_t begin, std::int64_t end) { return product_of_block(a, b, begin, end, find); },
-        [&](double product) { sum += product; });
+        static_cast<std::int64_t>(links_.size()), links_at_once,
+        [&](std::int64_t begin, std::int64_t end) {
+          find(begin, end);
+          return products_of_blocks(a, b, begin, end);
+        },
+        [&](const Products& products) { sum = sum_after(sum, products); });
     return sum;
   }
+  // Calls change(begin, end) for all links in pieces, in parallel.
+  template <class Change>
+  void change_all(Change&& change) {
+    const auto all = static_cast<std::int64_t>(links_.size());
+    parallel_for((all + links_at_once - 1) / links_at_once, 1, [&](std::int64_t piece) {
+      change(piece * links_at_once, std::min(all, (piece + 1) * links_at_once));
+    });
+  }
+  // Calls body(number of the vector's value) for all values of links from begin to end. They are plain floats then, of
+  // which the processor changes several at once.
   template <class Body>
-  void for_each_link(Body&& body) {
-    parallel_for(static_cast<std::int64_t>(links_.size()), links_in_block, body);
+  static void for_each_value(std::int64_t begin, std::int64_t end, Body&& body) {
+    for (std::int64_t i = values * begin; i < values * end; ++i) body(i);
   }
 
   // What is missing around loops is the first direction.
@@ -92,12 +119,7 @@ class CurlSolver {
       for (std::size_t k = 0; k < K; ++k) direction_[i][k] = distances_[K * static_cast<std::size_t>(links_[i]) + k];
     parallel_for(static_cast<std::int64_t>(parts_.size()), 1,
                  [&](std::int64_t i) { parts_[i].template add_sums<true>(crossings_, direction_, rest_); });
-    for_each_link([&](std::int64_t link) { set_direction(link, rest_[link]); });
-  }
-  // The image is to get the sums around loops, too.
-  void set_direction(std::int64_t link, const Values<K>& direction) {
-    direction_[link] = direction;
-    image_[link] = limits_.stiffness * direction;
+    turn(0);
   }
   // Returns the product of the direction and its image.
   double find_image() {
@@ -107,25 +129,34 @@ class CurlSolver {
         [&](std::int64_t i, std::int64_t) {
           const LoopsOfPart<K>& part = parts_[i];
           part.template add_sums<false>(crossings_, direction_, image_);
-          std::vector<double> products;
+          std::vector<Products> products;
           const auto [begin, end] = part.range();
-          for (std::int32_t block = begin; block < end; block += links_in_block)
-            products.push_back(product_of_block(direction_, image_, block, std::min(block + links_in_block, end),
-                                                [](std::int64_t) {}));
+          for (std::int32_t first = begin; first < end; first += links_at_once)
+            products.push_back(products_of_blocks(direction_, image_, first, std::min(first + links_at_once, end)));
           return products;
         },
-        [&](const std::vector<double>& products) { sum = std::accumulate(products.begin(), products.end(), sum); });
+        [&](const std::vector<Products>& of_part) {
+          for (const Products& products : of_part) sum = sum_after(sum, products);
+        });
     return sum;
   }
   // Returns the squared norm of the rest.
   double advance(float step) {
-    return add_products(rest_, rest_, [&](std::int64_t link) {
-      correction_[link] += step * direction_[link];
-      rest_[link] -= step * image_[link];
+    return add_products(rest_, rest_, [&](std::int64_t begin, std::int64_t end) {
+      float *correction = correction_.data()->data(), *rest = rest_.data()->data();
+      const float *direction = direction_.data()->data(), *image = image_.data()->data();
+      for_each_value(begin, end, [&](std::int64_t i) { correction[i] += step * direction[i]; });
+      for_each_value(begin, end, [&](std::int64_t i) { rest[i] -= step * image[i]; });
     });
   }
+  // The image is to get the sums around loops, too.
   void turn(float onward) {
-    for_each_link([&](std::int64_t link) { set_direction(link, rest_[link] + onward * direction_[link]); });
+    change_all([&](std::int64_t begin, std::int64_t end) {
+      float *direction = direction_.data()->data(), *image = image_.data()->data();
+      const float* rest = rest_.data()->data();
+      for_each_value(begin, end, [&](std::int64_t i) { direction[i] = rest[i] + onward * direction[i]; });
+      for_each_value(begin, end, [&](std::int64_t i) { image[i] = limits_.stiffness * direction[i]; });
+    });
   }
   std::vector<float> of_all_links() const {
     std::vector<float> corrections(distances_.size());
@@ -133,6 +164,8 @@ class CurlSolver {
       for (std::size_t k = 0; k < K; ++k) corrections[K * static_cast<std::size_t>(links_[i]) + k] = correction_[i][k];
     return corrections;
   }
+
+  static constexpr std::int64_t values = Values<K>::RowsAtCompileTime;  // stored of each link
 
   CurlLimits limits_;
   std::span<const float> distances_;

@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -48,12 +50,42 @@ struct Match {
   }
 };
 
+// The same for two values, as operations on their bits. There is no order in the ways in which links of a surface are
+// crossed, so a branch for them would be guessed wrong every other time.
+struct BitMatch {
+  std::uint64_t kept = 0, flipped = 0;
+  int turn = 0;
+
+  // Value k comes from axis[k], or is 0 where there is none.
+  static BitMatch of_signs(const std::array<std::optional<std::uint8_t>, 2>& axis, const std::array<float, 2>& sign) {
+    BitMatch match;
+    std::array<std::uint32_t, 2> kept{}, flipped{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!axis[k]) continue;
+      kept[k] = ~std::uint32_t{0};
+      flipped[k] = sign[k] < 0 ? std::uint32_t{1} << 31 : 0;
+      if (*axis[k] != k) match.turn = 32;
+    }
+    match.kept = std::bit_cast<std::uint64_t>(kept);
+    match.flipped = std::bit_cast<std::uint64_t>(flipped);
+    return match;
+  }
+  Values<2> of(const Values<2>& values) const {
+    std::uint64_t bits;
+    std::memcpy(&bits, values.data(), sizeof bits);
+    bits = (std::rotl(bits, turn) & kept) ^ flipped;
+    Values<2> result;
+    std::memcpy(result.data(), &bits, sizeof bits);
+    return result;
+  }
+};
+
 // The ways in which a bundle can cross a link, by their codes. Codes from `bundled` on are those of a loop by itself,
 // which is value 0 of its bundle and crosses one number.
 template <std::size_t K>
 class Crossings {
  public:
-  static constexpr std::size_t senses = 1 << K, bundled = (K == 3 ? 6 : K) * senses;
+  static constexpr std::size_t senses = 1 << K, bundled = (K == 3 ? 6 : K) * senses, codes = bundled + 2 * K;
 
   Crossings() {
     std::array<std::uint8_t, K> order;
@@ -68,6 +100,7 @@ class Crossings {
         loops_of_numbers_[code].sign[order[k]] = sign;
       }
     }
+    if constexpr (K == 2) match_bits();
   }
 
   // The code of a bundle whose loops take these steps, if they cross all numbers of one link.
@@ -98,6 +131,7 @@ class Crossings {
   // What the loops of a bundle see of the numbers of a link, and what the numbers see of the loops. Most crossings
   // match value k to value k, all with one sign.
   Values<K> seen_by_loops(std::uint8_t code, const Values<K>& numbers) const {
+    if constexpr (K == 2) return bits_of_loops_[code].of(numbers);
     if (is_plain(code)) return sign_of_plain(code) * numbers;
     if (code < bundled) return numbers_of_loops_[code].of(numbers);
     Values<K> seen = Values<K>::Zero();
@@ -105,6 +139,7 @@ class Crossings {
     return seen;
   }
   Values<K> seen_by_numbers(std::uint8_t code, const Values<K>& sums) const {
+    if constexpr (K == 2) return bits_of_numbers_[code].of(sums);
     if (is_plain(code)) return sign_of_plain(code) * sums;
     if (code < bundled) return loops_of_numbers_[code].of(sums);
     Values<K> seen = Values<K>::Zero();
@@ -117,8 +152,28 @@ class Crossings {
   static float sign_of_plain(std::uint8_t code) { return code == 0 ? 1.0f : -1.0f; }
   static std::size_t axis_of_one(std::uint8_t code) { return (code - bundled) / 2; }
   static float sign_of_one(std::uint8_t code) { return (code - bundled) % 2 != 0 ? -1.0f : 1.0f; }
+  void match_bits() {
+    for (std::uint8_t code = 0; code < codes; ++code) {
+      std::array<std::optional<std::uint8_t>, 2> loops, numbers;
+      std::array<float, 2> sign_of_loops{}, sign_of_numbers{};
+      if (code < bundled) {
+        std::ranges::copy(numbers_of_loops_[code].axis, loops.begin());
+        std::ranges::copy(loops_of_numbers_[code].axis, numbers.begin());
+        sign_of_loops = numbers_of_loops_[code].sign;
+        sign_of_numbers = loops_of_numbers_[code].sign;
+      } else {
+        const std::size_t axis = axis_of_one(code);
+        loops[0] = static_cast<std::uint8_t>(axis);
+        numbers[axis] = std::uint8_t{0};
+        sign_of_loops[0] = sign_of_numbers[axis] = sign_of_one(code);
+      }
+      bits_of_loops_[code] = BitMatch::of_signs(loops, sign_of_loops);
+      bits_of_numbers_[code] = BitMatch::of_signs(numbers, sign_of_numbers);
+    }
+  }
 
   std::array<Match<K>, bundled> numbers_of_loops_, loops_of_numbers_;
+  std::array<BitMatch, K == 2 ? codes : 0> bits_of_loops_, bits_of_numbers_;
 };
 
 // The links from begin to end.

@@ -46,6 +46,19 @@ struct PeriodicLink {
   }
 };
 
+// The weighted sum of what a node sees.
+template <std::size_t K>
+struct SeenSum {
+  SeenSum() { parts.fill(ComplexParts::Zero()); }
+  std::array<Complex, K> numbers() const {
+    std::array<Complex, K> result;
+    for (std::size_t k = 0; k < K; ++k) result[k] = complex_of(parts[k]);
+    return result;
+  }
+
+  std::array<ComplexParts, K> parts;
+};
+
 // How a node sees the numbers of a neighbour. Solvers look at all links in each of their steps, and their time is that
 // of reading them from memory, so it has nothing else, and for K = 3 it is one line of the cache.
 template <std::size_t K>
@@ -64,18 +77,21 @@ class LinkView {
   // The neighbour's numbers, as the node's own would have to be.
   std::array<Complex, K> seen(const std::array<Complex, K>& there) const {
     std::array<Complex, K> result;
-    for (std::size_t k = 0; k < K; ++k) {
-      const Complex along = there[axis_[k]];
-      result[k] = times({along.real(), (flipped_ >> k & 1) != 0 ? -along.imag() : along.imag()}, turn_[k]);
-    }
+    for (std::size_t k = 0; k < K; ++k) result[k] = complex_of(seen(there, k));
     return result;
   }
-  void add_seen(const std::array<Complex, K>& there, std::array<Complex, K>& sum) const {
-    const std::array<Complex, K> numbers = seen(there);
-    for (std::size_t k = 0; k < K; ++k) sum[k] += weight_ * numbers[k];
+  void add_seen(const std::array<Complex, K>& there, SeenSum<K>& sum) const {
+    for (std::size_t k = 0; k < K; ++k) sum.parts[k] += weight_ * seen(there, k);
   }
 
  private:
+  ComplexParts seen(const std::array<Complex, K>& there, std::size_t k) const {
+    // Axes are flipped without any order, so a branch would be guessed wrong every other time.
+    static constexpr std::array<double, 2> senses{1, -1};
+    const ComplexParts along = parts_of(there[axis_[k]]), turn = parts_of(turn_[k]);
+    return along[0] * turn + (senses[flipped_ >> k & 1] * along[1]) * ComplexParts(-turn[1], turn[0]);
+  }
+
   std::array<Complex, K> turn_{};  // by the distances
   double weight_ = 0;
   std::int32_t neighbour_ = no_index;

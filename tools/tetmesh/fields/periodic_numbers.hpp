@@ -3,6 +3,7 @@
 // turn by the distance from one node to the next (Ray, Li, Lévy, Sheffer, Alliez: Periodic global parameterization,
 // 2006). This file spreads them from where they are held. The caller says how a node sees its neighbours.
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -16,6 +17,16 @@ namespace hexpipe::tetmesh::fields {
 using Complex = std::complex<double>;
 template <std::size_t K>
 using PeriodicNumbers = std::vector<std::array<Complex, K>>;
+
+// The real and the imaginary part, which the processor adds and multiplies at once.
+using ComplexParts = Eigen::Array2d;
+
+inline ComplexParts parts_of(const Complex& z) {
+  return Eigen::Map<const ComplexParts>(reinterpret_cast<const double*>(&z));  // as the standard allows
+}
+inline Complex complex_of(const ComplexParts& parts) {
+  return {parts[0], parts[1]};
+}
 
 // Without the standard's care for infinities, which costs more than the product itself.
 inline Complex times(const Complex& a, const Complex& b) {
@@ -78,12 +89,10 @@ template <std::size_t K, class ForEach, class Diagonal, class View, class Produc
 PeriodicNumbers<K> diffused(PeriodicNumbers<K> rest, const DiffusionLimits& limits, ForEach&& for_each,
                             Diagonal&& diagonal, View&& view, Product&& product) {
   PeriodicNumbers<K> numbers(rest.size()), z(rest.size()), image(rest.size());
-  const auto precondition = [&] {
-    for_each([&](std::size_t i) {
-      for (std::size_t k = 0; k < K; ++k) z[i][k] = rest[i][k] / diagonal(i, k);
-    });
-  };
-  precondition();
+  const auto precondition = [&](std::size_t i, std::size_t k) { z[i][k] = rest[i][k] / diagonal(i, k); };
+  for_each([&](std::size_t i) {
+    for (std::size_t k = 0; k < K; ++k) precondition(i, k);
+  });
   PeriodicNumbers<K> direction = z;
   double rest_z = product(rest, z);
   const double enough = limits.tolerance * limits.tolerance * rest_z;
@@ -97,9 +106,9 @@ PeriodicNumbers<K> diffused(PeriodicNumbers<K> rest, const DiffusionLimits& limi
       for (std::size_t k = 0; k < K; ++k) {
         numbers[i][k] += length * direction[i][k];
         rest[i][k] -= length * image[i][k];
+        precondition(i, k);
       }
     });
-    precondition();
     const double next = product(rest, z), ratio = next / rest_z;
     for_each([&](std::size_t i) {
       for (std::size_t k = 0; k < K; ++k) direction[i][k] = z[i][k] + ratio * direction[i][k];

@@ -52,11 +52,13 @@ DirectionClasses::Cone DirectionClasses::cone_of(int number) const {
 
 ExitGrid::ExitGrid(std::span<const Vec3> points, std::span<const Triangle> triangles, double reach)
     : of_normals_(parts_of_normals), of_rays_(parts_of_rays), reach_(reach) {
+  std::vector<DirectionClasses::Cone> cones_of_normals;
+  for (int normal = 0; normal < of_normals_.count(); ++normal) cones_of_normals.push_back(of_normals_.cone_of(normal));
   for (int ray = 0; ray < of_rays_.count(); ++ray) {
     const auto [direction, most_off] = of_rays_.cone_of(ray);
     Classes from_behind = 0;
     for (int normal = 0; normal < of_normals_.count(); ++normal) {
-      const auto [axis, angle] = of_normals_.cone_of(normal);
+      const auto& [axis, angle] = cones_of_normals[normal];
       if (angle_between(direction, axis) <= std::numbers::pi / 2 + most_off + angle + room)
         from_behind |= Classes{1} << normal;
     }

@@ -67,6 +67,8 @@ class FieldSolver {
     edges_.reserve(3 * surface.triangles.size());
     for (geometry::HalfEdge h = 0; h < 3 * count; ++h)
       edges_.push_back(angle_of(frames_[geometry::triangle_of(h)], surface.edge_vector(h)));
+    turns_.reserve(edges_.size());
+    for (geometry::HalfEdge h = 0; h < 3 * count; ++h) turns_.push_back(-edges_[surface.twins[h]] / edges_[h]);
   }
 
   // Solves without opposite sides. agree_with() may follow once; it adds to the matrix.
@@ -88,11 +90,12 @@ class FieldSolver {
 
   // The factor exp(i angle) that makes a direction of h's triangle one of its neighbour's. The edge runs the other way
   // there.
-  Complex turn(geometry::HalfEdge h) const { return -edges_[surface_.twins[h]] / edges_[h]; }
+  const Complex& turn(geometry::HalfEdge h) const { return turns_[h]; }
 
   const FieldSurface& surface_;
   std::vector<TangentFrame> frames_;
   std::vector<Complex> edges_;  // exp(i angle) of each half-edge in its triangle's frame
+  std::vector<Complex> turns_;
   Matrix matrix_;
   Factors factors_;
   Eigen::VectorXcd right_, solution_;  // u of the triangles
@@ -101,13 +104,15 @@ class FieldSolver {
 // For each triangle: the difference of the principal curvatures times exp(2 i angle) of the direction of the first one.
 std::vector<Complex> FieldSolver::curvature() const {
   std::vector<Complex> bend(frames_.size());
+  std::vector<double> angles(edges_.size());  // by half-edge: by which the normal turns, the same on both sides
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(edges_.size()); ++h) {
     if (surface_.feature[h]) continue;
     const Vec3 edge = surface_.edge_vector(h);
     const Vec3 &n = surface_.normals[geometry::triangle_of(h)],
                &m = surface_.normals[geometry::triangle_of(surface_.twins[h])];
-    const double angle = std::atan2(dot(cross(n, m), edge) / norm(edge), dot(n, m));
-    bend[geometry::triangle_of(h)] += angle / 2 * norm(edge) * edges_[h] * edges_[h];
+    const geometry::HalfEdge twin = surface_.twins[h];
+    angles[h] = twin < h ? angles[twin] : std::atan2(dot(cross(n, m), edge) / norm(edge), dot(n, m));
+    bend[geometry::triangle_of(h)] += angles[h] / 2 * norm(edge) * edges_[h] * edges_[h];
   }
   std::vector<double> areas = surface_.areas;
   for (int round = 0; round < curvature_rounds; ++round) {

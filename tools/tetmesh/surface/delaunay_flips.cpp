@@ -6,6 +6,9 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
+// With a positive excess, rounding cannot flip the diagonal of a square back and forth.
+constexpr double least_excess = 1e-9;
+
 // The cosine and the sine of the angle at p, times the lengths of its sides.
 struct Angle {
   double cosine, sine;
@@ -25,11 +28,13 @@ EdgeDiamond::EdgeDiamond(const FeatureMesh& mesh, OpenMesh::EdgeHandle e) {
   }
 }
 
-double EdgeDiamond::excess() const {
+bool EdgeDiamond::is_beyond_delaunay() const {
   const Angle left(across_points[0], end_points[0], end_points[1]),
       right(across_points[1], end_points[0], end_points[1]);
+  const double sine = -(left.sine * right.cosine + left.cosine * right.sine);
+  if (!(sine > 0)) return false;  // nearly always
   const double scale = std::hypot(left.cosine, left.sine) * std::hypot(right.cosine, right.sine);
-  return -(left.sine * right.cosine + left.cosine * right.sine) / std::max(scale, 1e-300);
+  return sine / std::max(scale, 1e-300) > least_excess;
 }
 
 double EdgeDiamond::height() const {

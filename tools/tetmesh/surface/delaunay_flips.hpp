@@ -14,9 +14,8 @@ struct EdgeDiamond {
 
   EdgeDiamond(const FeatureMesh& mesh, OpenMesh::EdgeHandle e);
 
-  // By how much the opposite angles of the two triangles exceed 180 degrees together, like the sine of the excess. An
-  // edge with a positive value should be flipped.
-  double excess() const;
+  // Whether the opposite angles of the two triangles exceed 180 degrees together, so that the edge should be flipped.
+  bool is_beyond_delaunay() const;
   // The height of the tet of the four points over the larger of the two pairs of triangles. A flip moves the surface by
   // no more than that.
   double height() const;
@@ -52,14 +51,12 @@ class EdgeQueue {
 // called after each flip.
 template <class Allow, class Done>
 void flip_towards_delaunay(FeatureMesh& mesh, EdgeQueue& queue, Allow&& allow, Done&& done) {
-  // With a positive excess, rounding cannot flip the diagonal of a square back and forth; folds are refused with some
-  // reserve.
-  constexpr double least_excess = 1e-9, least_cosine = 0.2;
+  constexpr double least_cosine = 0.2;  // folds are refused with some reserve
   while (!queue.empty()) {
     const OpenMesh::EdgeHandle e = queue.pop();
     if (mesh.status(e).deleted() || mesh.is_feature(e)) continue;
     const EdgeDiamond diamond(mesh, e);
-    if (diamond.excess() <= least_excess || diamond.least_cosine_after_flip() < least_cosine) continue;
+    if (!diamond.is_beyond_delaunay() || diamond.least_cosine_after_flip() < least_cosine) continue;
     if (!allow(e, diamond) || !mesh.is_flip_ok(e)) continue;
     mesh.flip(e);
     done(e);

@@ -15,12 +15,14 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& siz
   points.reserve(mesh.n_vertices());
   for (const auto v : mesh.vertices()) points.push_back(mesh.position(v));
   triangles.reserve(mesh.n_faces());
+  std::vector<geometry::HalfEdge> number(mesh.n_halfedges(), no_index);  // by the mesh's half-edges, those of triangles
   feature.reserve(3 * mesh.n_faces());
   for (const auto f : mesh.faces()) {
     const auto [a, b, c] = mesh.corners(f);
     triangles.push_back({a.idx(), b.idx(), c.idx()});
     auto h = mesh.halfedge_handle(f);  // half_edge_of() starts here, too
     for (int i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h)) {
+      number[h.idx()] = static_cast<geometry::HalfEdge>(feature.size());
       feature.push_back(mesh.is_feature(mesh.edge_handle(h)));
       crest.push_back(mesh.is_crest(mesh.edge_handle(h)));
       joint.push_back(mesh.is_joint(mesh.edge_handle(h)) ? joint_of(h) : no_index);
@@ -34,13 +36,16 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& siz
     is_interface.push_back(mesh.is_interface(f));
   }
   twins.resize(3 * triangles.size());
-  geometry::for_each_edge(points.size(), triangles, [&](std::span<const geometry::HalfEdge> edge) {
-    twins[edge[0]] = edge.back();
-    twins[edge.back()] = edge[0];
-  });
+  for (const auto h : mesh.halfedges()) {
+    const geometry::HalfEdge twin = number[mesh.opposite_halfedge_handle(h).idx()];
+    if (number[h.idx()] != no_index) twins[number[h.idx()]] = twin == no_index ? number[h.idx()] : twin;
+  }
+  alongs.reserve(twins.size());
   inwards.reserve(twins.size());
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
-    inwards.push_back(unit(cross(normals[geometry::triangle_of(h)], edge_vector(h))));
+    const Vec3 edge = edge_vector(h);
+    alongs.push_back(unit(edge));
+    inwards.push_back(unit(cross(normals[geometry::triangle_of(h)], edge)));
   }
 }
 

@@ -29,13 +29,15 @@ struct FieldSurface {
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;
-  std::vector<double> sizes;       // in the middle of each triangle
-  std::vector<bool> is_interface;  // by triangle: a region is on both of its sides
-  std::vector<Vec3> inwards;       // by half-edge, see inward()
+  std::vector<double> sizes;          // in the middle of each triangle
+  std::vector<bool> is_interface;     // by triangle: a region is on both of its sides
+  std::vector<Vec3> alongs, inwards;  // by half-edge, see along() and inward()
 
   Vec3 edge_vector(geometry::HalfEdge h) const {
     return points[geometry::end_of(triangles, h)] - points[geometry::start_of(triangles, h)];
   }
+  // The direction of a half-edge, of length 1.
+  const Vec3& along(geometry::HalfEdge h) const { return alongs[h]; }
   // The direction at right angles to a half-edge in the plane of its triangle, of length 1, that points into the
   // triangle.
   const Vec3& inward(geometry::HalfEdge h) const { return inwards[h]; }

@@ -34,7 +34,7 @@ TriangleExit exit_of(const FieldSurface& surface, const SurfacePoint& point, con
 }
 
 Vec3 unfolded_beyond(const FieldSurface& surface, geometry::HalfEdge edge, const Vec3& direction) {
-  const Vec3 along = unit(surface.edge_vector(edge));
+  const Vec3& along = surface.along(edge);
   return dot(direction, along) * along - dot(direction, surface.inward(edge)) * surface.inward(surface.twins[edge]);
 }
 

@@ -128,10 +128,10 @@ class PhaseSolver {
     return result;
   }
   Phases view(const std::vector<Phases>& phases, std::size_t i) const {
-    Phases sum{};
+    fields::SeenSum<2> sum;
     for (std::int64_t l = first_view_[i]; l < first_view_[i + 1]; ++l)
       views_[l].add_seen(phases[views_[l].neighbour()], sum);
-    return sum;
+    return sum.numbers();
   }
   double product(const std::vector<Phases>& a, const std::vector<Phases>& b) {
     for_each([&](std::size_t i) {
@@ -314,10 +314,10 @@ void LatticeMaker::measure_distances() {
 }
 
 Phases LatticeMaker::view_of_neighbours(std::int32_t f) const {
-  Phases sum{};
+  fields::SeenSum<2> sum;
   for_each_link(links_, across_, f,
                 [&](const SurfaceLink& link) { fields::LinkView<2>(link).add_seen(phases_[link.neighbour], sum); });
-  return sum;
+  return sum.numbers();
 }
 
 // Triangles too far from any feature take over the numbers of a neighbour, turned by the distance to it.

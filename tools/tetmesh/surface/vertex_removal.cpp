@@ -179,6 +179,7 @@ class VertexRemover {
   bool remove_with_copies(VertexH v);
   bool fit_all(std::span<const HalfEdgeH> collapses);
   void collapse(HalfEdgeH h);
+  void gather_faces(VertexH v);
   double shape_after(HalfEdgeH collapse);
   void describe_collapse(HalfEdgeH collapse);
   bool fits() { return strays_fit() && (change_.flat || faces_fit()); }
@@ -199,8 +200,18 @@ class VertexRemover {
   const StrayedPlaces& strayed_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere
   std::size_t region_ = 0;
+  // A face at the vertex that may go.
+  struct FaceAround {
+    std::array<VertexH, 3> handles;
+    Corners corners;
+    std::size_t moved;  // the corner at the vertex
+    Vec3 normal;        // of twice the area
+    double twice_area;
+  };
+  std::vector<FaceAround> faces_;
   std::vector<Choice> choices_;
   Change change_;
+  std::vector<geometry::TriangleDistance> distances_;  // to the change's faces
   EdgeQueue queue_;
   std::vector<Edge> wanted_;
 };
@@ -209,6 +220,7 @@ bool VertexRemover::remove(VertexH v) {
   if (regions_ && !regions_->has_around(region_, mesh_, v)) return false;
   if (mesh_.has_copies(v)) return !regions_ && remove_with_copies(v);
   choices_.clear();
+  gather_faces(v);
   const bool on_feature = mesh_.is_on_feature(v);
   for (const HalfEdgeH h : mesh_.voh_range(v)) {
     if (on_feature && !mesh_.is_feature(mesh_.edge_handle(h))) continue;
@@ -242,7 +254,10 @@ bool VertexRemover::remove_with_copies(VertexH v) {
   for (const HalfEdgeH h : mesh_.voh_range(v)) {
     if (!mesh_.is_joint(mesh_.edge_handle(h))) continue;
     double shape = std::numeric_limits<double>::max();
-    for (const HalfEdgeH copy : mesh_.copies(h)) shape = std::min(shape, shape_after(copy));
+    for (const HalfEdgeH copy : mesh_.copies(h)) {
+      gather_faces(mesh_.from_vertex_handle(copy));
+      shape = std::min(shape, shape_after(copy));
+    }
     if (shape > least_shape) choices_.push_back({shape, h});
   }
   std::ranges::stable_sort(choices_, std::ranges::greater(), &Choice::shape);
@@ -268,21 +283,32 @@ bool VertexRemover::fit_all(std::span<const HalfEdgeH> collapses) {
   });
 }
 
-// The least shape of the faces that move; negative if one of them turns too far.
-double VertexRemover::shape_after(HalfEdgeH collapse) {
-  const VertexH v = mesh_.from_vertex_handle(collapse), to = mesh_.to_vertex_handle(collapse);
-  double least = std::numeric_limits<double>::max();
+void VertexRemover::gather_faces(VertexH v) {
+  faces_.clear();
   for (const Face f : mesh_.vf_range(v)) {
-    const auto handles = mesh_.corners(f);
-    if (std::ranges::find(handles, to) != handles.end()) continue;
-    Corners before, after;
+    FaceAround& face = faces_.emplace_back();
+    face.handles = mesh_.corners(f);
     for (std::size_t i = 0; i < 3; ++i) {
-      before[i] = mesh_.position(handles[i]);
-      after[i] = handles[i] == v ? mesh_.position(to) : before[i];
+      face.corners[i] = mesh_.position(face.handles[i]);
+      if (face.handles[i] == v) face.moved = i;
     }
-    const Vec3 n = area_normal(before), m = area_normal(after);
-    if (dot(n, m) < least_cosine * norm(n) * norm(m)) return -1;
-    least = std::min(least, shape_of_triangle(after));
+    face.normal = area_normal(face.corners);
+    face.twice_area = norm(face.normal);
+  }
+}
+
+// The least shape of the faces that move, which were gathered before; negative if one of them turns too far.
+double VertexRemover::shape_after(HalfEdgeH collapse) {
+  const VertexH to = mesh_.to_vertex_handle(collapse);
+  const Vec3 target = mesh_.position(to);
+  double least = std::numeric_limits<double>::max();
+  for (const FaceAround& face : faces_) {
+    if (std::ranges::find(face.handles, to) != face.handles.end()) continue;
+    Corners after = face.corners;
+    after[face.moved] = target;
+    const Vec3 m = area_normal(after);
+    if (dot(face.normal, m) < least_cosine * face.twice_area * norm(m)) return -1;
+    least = std::min(least, shape_of(after, m));
   }
   return least;
 }
@@ -316,13 +342,13 @@ void VertexRemover::describe_collapse(HalfEdgeH collapse) {
 // Finds the nearest of the new faces for each stray.
 bool VertexRemover::strays_fit() {
   change_.target.clear();
-  std::vector<geometry::TriangleDistance> distances;
-  for (const Corners& c : change_.corners) distances.emplace_back(c[0], c[1], c[2]);
+  distances_.clear();
+  for (const Corners& c : change_.corners) distances_.emplace_back(c[0], c[1], c[2]);
   for (const Vec3& p : change_.strays) {
     double least = std::numeric_limits<double>::max();
     std::size_t nearest = 0;
-    for (std::size_t i = 0; i < distances.size(); ++i)
-      if (const double d = distances[i].squared(p); d < least) {
+    for (std::size_t i = 0; i < distances_.size(); ++i)
+      if (const double d = distances_[i].squared(p); d < least) {
         least = d;
         nearest = i;
       }

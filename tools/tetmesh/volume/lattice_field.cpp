@@ -200,9 +200,9 @@ void LatticeSolver::make_anchors(std::size_t i) {
 }
 
 Phases LatticeSolver::view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const {
-  Phases sum{};
+  fields::SeenSum<3> sum;
   for (const View& view : views_of(i)) view.add_seen(phases[view.neighbour()], sum);
-  return sum;
+  return sum.numbers();
 }
 
 void LatticeSolver::diffuse() {
