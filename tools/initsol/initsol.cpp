@@ -42,8 +42,8 @@ constexpr double least_gain_before_second_trial = 5 * least_gain_of_trial;
 // has to gain as much. On spot of 121,000 vertices the third gained 0.0103 %, a fourth nothing, and cooling slowly
 // 0.0003 %.
 constexpr std::int32_t many_vertices = 65536;
-// How many times the time of kicks short coolings take beside them. On auctions (in608) kicks find what they do not.
-constexpr std::int64_t coolings_to_kicks = 3;
+// How many times the work of kicks short coolings do beside them. On auctions (in608) kicks find what they do not.
+constexpr double coolings_to_kicks = 3;
 
 graph::IndependentSet start_solution(const graph::ConflictGraph& graph, std::vector<double> merits,
                                      const InitsolOptions& options, std::int64_t index) {
@@ -78,8 +78,8 @@ class TabuStart : public Search {
   TabuSearch search_;
 };
 
-// One long cooling by kicks. Where short coolings suit the graph, they take several times as long beside it; given
-// temperatures leave them out, because they find their own.
+// One long cooling by kicks. Where short coolings suit the graph, they do as much work beside it, and several times as
+// much in a given time; given temperatures leave them out, because they find their own.
 class AnnealedStart : public Search {
  public:
   AnnealedStart(const graph::ConflictGraph& graph, const graph::IndependentSet& start, const InitsolOptions& options,
@@ -93,9 +93,11 @@ class AnnealedStart : public Search {
       short_coolings_.emplace(graph, start, Random(random.next()));
   }
   void run(std::int64_t moves, double progress, const Deadline& deadline) override {
+    const std::int64_t before = search_.touched();
     search_.run(moves, unit_ * cooling_.at(progress), deadline);
-    if (short_coolings_)
-      short_coolings_->run(coolings_to_kicks * mwis::local_search::ShortCoolings::trials_a_kick * moves, deadline);
+    if (!short_coolings_) return;
+    const double times = std::isfinite(deadline.remaining()) ? coolings_to_kicks : 1;
+    short_coolings_->run(times * static_cast<double>(search_.touched() - before), deadline);
   }
   std::int64_t moves() const override { return search_.kicks(); }
   std::int64_t best_weight() const override {

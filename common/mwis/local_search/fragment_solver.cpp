@@ -71,7 +71,8 @@ void FragmentSolver::recombine(std::int64_t kicks_a_vertex, Random random, const
 void FragmentSolver::recombine_short_coolings(std::int64_t kicks_a_vertex, const Deadline& deadline,
                                               ShortCoolings& search) {
   const double before = search.touched();
-  search.run(ShortCoolings::trials_a_kick * kicks_a_vertex * sparse_.vertex_count(), deadline);
+  const double kicks = static_cast<double>(kicks_a_vertex) * sparse_.vertex_count();
+  search.run(kicks * work_a_kick(sparse_) / work_a_touched_neighbour, deadline);
   work_ = work_a_touched_neighbour * (search.touched() - before);
   choose(hexpipe::mwis::local_search::recombine(sparse_, start_, search.best()));
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -27,8 +28,9 @@ class PushTabu {
   // PushGains must suit the graph.
   PushTabu(const graph::ConflictGraph& graph, Random random);
 
-  // Makes so many more moves; fewer if the deadline passes. It goes on where the last call ended.
-  void run(std::int64_t moves, const Deadline& deadline);
+  // Makes so many more moves; fewer if the deadline passes, or once touched() has come to `most_touched`. It goes on
+  // where the last call ended.
+  void run(std::int64_t moves, const Deadline& deadline, double most_touched = std::numeric_limits<double>::infinity());
 
   std::int64_t best_weight() const { return best_weight_; }
   // Ascending.
@@ -36,8 +38,8 @@ class PushTabu {
   std::int64_t moves() const { return moves_; }
   // For how many moves at least, and less than twice as many, a vertex stays out in the starts that reach most.
   std::int64_t usual_tenure() const { return tenures[best_tenure()]; }
-  // What a move takes, in neighbours touched by a walk.
-  double touched_a_move() const;
+  // The work done, in neighbours that a walk touches in the same time.
+  double touched() const { return touched_; }
 
   // Whether the gains are right; for tests.
   bool check() const;
@@ -67,6 +69,7 @@ class PushTabu {
   std::array<std::vector<std::size_t>, static_cast<std::size_t>(2 * tenures.back())> free_at_;  // by move, modulo
   std::vector<std::size_t> pushed_out_;
   std::int64_t moves_ = 0, in_vain_ = 0;
+  double touched_ = 0;
   std::array<Experience, tenures.size()> experience_;
   std::int64_t starts_ = 0, long_starts_ = 0;
   std::size_t tenure_ = 0;         // of this start: its place in tenures
