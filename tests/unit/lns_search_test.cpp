@@ -309,7 +309,7 @@ TEST(FragmentSolver, RecombinesShortCoolings) {
       if (solver.chooses(i)) weight += graph.weights[solver.fragment().vertices[i]];
     return weight;
   };
-  std::int64_t with = 0, without = 0;  // half of those with short coolings anneal by kicks
+  std::int64_t with = 0, without = 0;  // a quarter of those with short coolings anneal by kicks
   for (int i = 0; i < 10; ++i) with += weight_with(true, i), without += weight_with(false, i);
   EXPECT_GT(with, without);
 }
@@ -321,7 +321,7 @@ TEST(FragmentSolver, GoesOnWithTheCoolingsOfTheWholeGraph) {
   ShortCoolings of_graph(graph, {}, Random(1));
   for (const std::size_t size : {std::size_t{300}, std::size_t{100}}) {
     const double before = of_graph.touched();
-    for (int i = 0; i < 10; ++i) {  // half of them anneal by kicks
+    for (int i = 0; i < 10; ++i) {  // a quarter of them anneal by kicks
       SolutionState state(graph);
       state.make_maximal();
       FragmentGrower grower(state, Random(9));

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 #include "random_graphs.hpp"
 
 namespace hexpipe {

@@ -29,6 +29,7 @@ PushTabu::PushTabu(const graph::ConflictGraph& graph, Random random)
       random_(random),
       gains_(PushGains::make(graph_)),
       chosen_(graph_.words(), 0),
+      pushed_out_(graph_.words(), 0),
       best_(graph_.words(), 0) {}
 
 void PushTabu::run(std::int64_t moves, const Deadline& deadline, double most_touched) {
@@ -62,8 +63,7 @@ void PushTabu::end() {
   ++experience.starts;
   experience.reached += (static_cast<double>(heaviest_) - experience.reached) / static_cast<double>(experience.starts);
   for (std::vector<std::size_t>& vertices : free_at_) free_tabu(vertices);
-  const std::vector<bits::Word> chosen = chosen_;
-  bits::for_each(chosen.data(), chosen.size(), [&](std::size_t v) {
+  bits::for_each(chosen_.data(), chosen_.size(), [&](std::size_t v) {
     go_out(v);
     gains_->free(v);
   });
@@ -86,20 +86,18 @@ void PushTabu::move() {
     return;
   }
   const std::size_t v = gains_->greatest(random_);
-  pushed_out_.clear();
   const bits::Word* const row = graph_.row(v);
-  for (std::size_t w = 0; w < chosen_.size(); ++w)
-    for (bits::Word word = chosen_[w] & row[w]; word != 0; word &= word - 1)
-      pushed_out_.push_back(64 * w + static_cast<std::size_t>(std::countr_zero(word)));
-  for (const std::size_t u : pushed_out_) {
+  for (std::size_t w = 0; w < chosen_.size(); ++w) pushed_out_[w] = chosen_[w] & row[w];
+  std::size_t changed = 1;
+  bits::for_each(pushed_out_.data(), pushed_out_.size(), [&](std::size_t u) {
+    ++changed;
     go_out(u);
     const std::int64_t until = moves_ + tenures[tenure_] +
                                static_cast<std::int64_t>(random_.below(static_cast<std::uint64_t>(tenures[tenure_])));
     free_at_[static_cast<std::size_t>(until) % free_at_.size()].push_back(u);
-  }
+  });
   come_in(v);
-  const auto changed = static_cast<double>(pushed_out_.size() + 1);
-  touched_ += touched_a_move + changed * static_cast<double>(graph_.size()) / vertices_a_touched;
+  touched_ += touched_a_move + static_cast<double>(changed) * static_cast<double>(graph_.size()) / vertices_a_touched;
   if (weight_ <= heaviest_) return;
   heaviest_ = weight_;
   in_vain_ = 0;

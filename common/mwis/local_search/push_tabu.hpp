@@ -64,10 +64,9 @@ class PushTabu {
   ground::DenseGraph graph_;
   Random random_;
   std::unique_ptr<PushGains> gains_;
-  std::vector<bits::Word> chosen_;
+  std::vector<bits::Word> chosen_, pushed_out_;  // the latter by the last move
   std::int64_t weight_ = 0;
   std::array<std::vector<std::size_t>, static_cast<std::size_t>(2 * tenures.back())> free_at_;  // by move, modulo
-  std::vector<std::size_t> pushed_out_;
   std::int64_t moves_ = 0, in_vain_ = 0;
   double touched_ = 0;
   std::array<Experience, tenures.size()> experience_;

@@ -23,9 +23,9 @@ constexpr double share_of_last = 0.2;  // in the usual temperature
 constexpr std::int64_t trials_a_vertex = 1000;
 constexpr std::int64_t coolings_to_grow = 32;
 constexpr std::int64_t steps_a_cooling = 50;
-// The tabu search gets so many times the work of the walk, in turns of a
-// tenth of a millisecond. It finds the best known set
-// of C2000.9 five times as often, and as good ones on frb59-26-5; on auctions (in608) the walk finds better ones.
+// The tabu search gets so many times the work of the walk, in turns of a tenth of a millisecond. It finds the best
+// known set of C2000.9 five times as often, and as good ones on frb59-26-5; on auctions (in608) the walk finds better
+// ones.
 constexpr double tabu_to_walk = 2;
 constexpr std::int64_t trials_a_turn = 1 << 13;
 
