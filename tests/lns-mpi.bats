@@ -238,6 +238,16 @@ PYTHON
   run "$CHECKERS/solution_check.py" ring.graph out.sol
   assert_success
   assert [ "$(weight_of out.sol)" -gt "$(weight_of start.sol)" ]
+  # Each rank has as many blocks as the others. Blocks are small, so borders move by one edge.
+  on 3 --time-limit 1 --stats stats.json -o out.sol
+  on 3 --time-limit 1 --overlap 1 --stats one.json -o out.sol
+  on 3 --time-limit 1 --overlap 2 --stats two.json -o out.sol
+  "$PYTHON" - <<'PYTHON'
+import json
+usual, one, two = (json.load(open(name + ".json")) for name in ("stats", "one", "two"))
+assert usual["blocks"] == 6, usual
+assert usual["held_edges"] == one["held_edges"] < two["held_edges"], (usual, one, two)
+PYTHON
   run_apart on 6 --iterations 10 -o out.sol
   assert_equal "$status" 1
   grep -q "expected at least a block for each of 6 ranks, found 4" <<<"$stderr"

@@ -60,10 +60,12 @@ int main(int argc, char** argv) {
     begin_group(app, "Blocks");
     app.add_option("--blocks", options.blocks,
                    "Blocks to cut the graph into, at least one for each rank; 0: one for each 50000 vertices, and "
-                   "without --iterations at least one for each rank")
+                   "without --iterations the same number for each rank")
         ->check(CLI::Range(0, 1000000).description(""));
-    app.add_option("--overlap", options.overlap, "How many edges beyond its border a block may change the solution")
-        ->check(CLI::Range(1, 16).description(""));
+    app.add_option("--overlap", options.overlap,
+                   "How many edges beyond its border a block may change the solution; 0: 2, but without --iterations 1 "
+                   "where a rank has less than 20000 vertices")
+        ->check(CLI::Range(0, 16).description(""));
     round = app.add_option("--round", options.rounds.fragments_a_round,
                            "Fragments of a round for each thousand vertices, with --iterations");
     round->check(CLI::Range(1, 1000000).description(""));

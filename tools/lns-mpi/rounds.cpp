@@ -17,8 +17,8 @@ namespace {
 // round cuts off coolings. On 200,000 points at random and 20 s, 4 rounds are worse than 8, and 16 are as good. They
 // are no longer than a minute, so that ranks do not go on for long after one of them was told to stop.
 constexpr double round_share = 1.0 / 8, longest_round = 60;
-// Under a time limit alone, this many fragments at a time, so that the end of a round cuts off few: one that is
-// annealed, as a batch has a quarter as many of these.
+// Under a time limit alone, this many fragments at a time where there are several rounds, so that the end of a round
+// cuts off few: one that is annealed, as a batch has a quarter as many of these.
 constexpr int fragments_a_thread = 4;
 // A round takes at least this many times as long as taking the regions out of the graph did in the one before.
 constexpr double least_times_extraction = 3;
@@ -216,7 +216,8 @@ class Rounds {
     mwis::local_search::LnsOptions options = options_.search;
     options.iterations = fragments;
     options.target = std::numeric_limits<std::int64_t>::max();
-    if (is_timed_alone()) options.batch = std::min(options.batch, fragments_a_thread * thread_count());
+    if (is_timed_alone() && searchers_.count() > 1)
+      options.batch = std::min(options.batch, fragments_a_thread * thread_count());
     // Places that are new to this block begin with the size that fragments have reached elsewhere in it.
     if (known.usual_size() > 0) options.fragment_size = known.usual_size();
     // A different seed for every region.

@@ -127,10 +127,11 @@ class WholeGraph : public Source {
   }
 
  private:
-  // Under a limit of iterations, the result must not depend on the number of ranks.
+  // Under a limit of iterations, the result must not depend on the number of ranks. Otherwise each rank gets as many as
+  // the others.
   std::int32_t choose_blocks(std::int64_t vertices, std::int32_t ranks) const {
     const std::int32_t usual = usual_blocks(vertices);
-    return context_.common.iterations ? usual : std::max(usual, ranks);
+    return context_.common.iterations ? usual : (usual + ranks - 1) / ranks * ranks;
   }
 
   RunContext context_;
