@@ -1,10 +1,10 @@
 #include "formats/polyhedra/cell_merging.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "common/mesh/joined_sets.hpp"
@@ -91,86 +91,114 @@ class Merger {
   // The first cell of the set becomes the polyhedron, the others are gone. False if it is not a ball with a simple
   // skin; then the mesh is half changed.
   bool merge(const CellSet& set) {
-    struct Outer {
-      std::int32_t face, cell;  // its cell in the set
-    };
-    const std::int32_t whole = set[0];
-    // By the cell behind, or none, and the surface: these faces may be one.
-    std::map<std::tuple<std::int32_t, std::int32_t, bool>, std::vector<Outer>> groups;
-    std::vector<std::int32_t> gone;
+    Groups groups;
+    Change change;
+    change.whole = set[0];
+    if (!gather(set, groups, change)) return false;
+    for (const auto& [side, outer] : groups)
+      for (const std::vector<Outer>& parts : joined_parts(outer, side.cell))
+        if (!add_to_skin(set, side, parts, change)) return false;
+    return is_ball(change.skin, change.whole) && apply(set, change);
+  }
+
+ private:
+  // A face of the skin, and its cell in the set.
+  struct Outer {
+    std::int32_t face, cell;
+  };
+  // Where faces may be one: the cell behind, or none, the surface, and whether its facets look into the set. Without a
+  // surface, that is whether the cell behind has the lower number: this keeps some faces apart by chance. With all of
+  // them joined, mambo-s27 kept three tets, and spot and blub as many as before.
+  struct Side {
+    std::int32_t cell, surface;
+    bool looks_back;
+    auto operator<=>(const Side&) const = default;
+  };
+  using Groups = std::map<Side, std::vector<Outer>>;
+  struct Change {
+    std::int32_t whole = no_index;
+    std::vector<std::int32_t> skin, gone;                      // faces
+    std::map<std::int32_t, std::vector<std::int32_t>> behind;  // by cell: faces that it loses, and gets
+  };
+
+  // False if a surface is inside.
+  bool gather(const CellSet& set, Groups& groups, Change& change) const {
     for (const std::int32_t cell : set)
       for (const std::int32_t number : mesh_.faces_of(cell)) {
         const PolyhedralMesh::Face& face = mesh_.mesh().faces[number];
         const std::int32_t other = face.other_cell(cell);
-        if (other != no_index && contains(set, other)) {
-          if (face.surface != no_index) return false;
-          if (cell == face.owner) gone.push_back(number);
+        if (other == no_index || !contains(set, other)) {
+          const bool looks_back = face.flipped != (face.owner != cell);
+          groups[{other, face.surface, looks_back}].push_back({number, cell});
           continue;
         }
-        const bool looks_back = face.flipped != (face.owner != cell);
-        groups[{other, face.surface, looks_back}].push_back({number, cell});
+        if (face.surface != no_index) return false;
+        if (cell == face.owner) change.gone.push_back(number);
       }
-    std::vector<std::int32_t> skin;
-    std::map<std::int32_t, std::vector<std::int32_t>> changed;  // by cell behind: faces that it loses, and gets
-    for (const auto& [key, outer] : groups) {
-      const auto& [other, surface, looks_back] = key;
-      std::vector<std::int32_t> faces, cells;
-      for (const Outer& one : outer) faces.push_back(one.face), cells.push_back(one.cell);
-      JoinedSets joined(faces.size());
-      for (std::size_t i = 0; i < faces.size(); ++i)
-        for (std::size_t k = i + 1; k < faces.size(); ++k)
-          if (share_an_edge(faces[i], faces[k]) &&
-              (other != no_index || are_one_facet(faces[i], cells[i], faces[k], cells[k])))
-            joined.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(k));
-      for (std::size_t first = 0; first < faces.size(); ++first) {
-        if (joined.of(static_cast<std::int32_t>(first)) != static_cast<std::int32_t>(first)) continue;
-        std::vector<std::int32_t> parts;
-        std::vector<std::vector<Vertex>> loops;
-        for (std::size_t i = first; i < faces.size(); ++i) {
-          if (joined.of(static_cast<std::int32_t>(i)) != static_cast<std::int32_t>(first)) continue;
-          parts.push_back(faces[i]);
-          loops.push_back(loop_from(faces[i], cells[i]));
-        }
-        std::vector<Vertex> loop;
-        if (parts.size() > 1) loop = loop_around(loops);
-        if (parts.size() == 1) {
-          const PolyhedralMesh::Face face = mesh_.mesh().faces[parts[0]];
-          const bool owns = contains(set, face.owner);
-          mesh_.set_sides(parts[0], owns ? whole : face.owner, owns ? face.neighbour : whole);
-          skin.push_back(parts[0]);
-          continue;
-        }
-        if (loop.empty()) return false;
-        const std::int32_t face = mesh_.add_face(loop, whole, other, surface, looks_back);
-        mesh_.measure_face(face);
-        skin.push_back(face);
-        for (const std::int32_t part : parts) gone.push_back(part);
-        if (other == no_index) continue;
-        for (const std::int32_t part : parts) changed[other].push_back(part);
-        changed[other].push_back(face);
-      }
-    }
-    if (!is_ball(skin, whole)) return false;
-    for (const std::int32_t cell : set) mesh_.set_faces(cell, {});
-    mesh_.set_faces(whole, skin);
-    mesh_.set_hex(whole, false);
-    for (const auto& [other, parts] : changed) {
-      std::vector<std::int32_t> faces;
-      for (const std::int32_t face : mesh_.faces_of(other))
-        if (std::ranges::find(parts, face) == parts.end()) faces.push_back(face);
-      for (const std::int32_t face : parts)
-        if (std::ranges::find(gone, face) == gone.end()) faces.push_back(face);
-      if (faces.size() < 4) return false;
-      mesh_.set_faces(other, faces);
-      mesh_.set_hex(other, false);
-    }
-    for (const std::int32_t face : gone) mesh_.remove_face(face);
-    mesh_.measure_cell(whole);
-    for (const auto& [other, parts] : changed) mesh_.measure_cell(other);
     return true;
   }
 
- private:
+  // The faces that become one each.
+  std::vector<std::vector<Outer>> joined_parts(const std::vector<Outer>& outer, std::int32_t cell_behind) const {
+    JoinedSets joined(outer.size());
+    for (std::size_t i = 0; i < outer.size(); ++i)
+      for (std::size_t k = i + 1; k < outer.size(); ++k)
+        if (share_an_edge(outer[i].face, outer[k].face) &&
+            (cell_behind != no_index || are_one_facet(outer[i].face, outer[i].cell, outer[k].face, outer[k].cell)))
+          joined.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(k));
+    std::map<std::int32_t, std::vector<Outer>> parts;
+    for (std::size_t i = 0; i < outer.size(); ++i) parts[joined.of(static_cast<std::int32_t>(i))].push_back(outer[i]);
+    std::vector<std::vector<Outer>> list;
+    for (auto& [first, part] : parts) list.push_back(std::move(part));
+    return list;
+  }
+
+  bool add_to_skin(const CellSet& set, const Side& side, const std::vector<Outer>& parts, Change& change) {
+    if (parts.size() == 1) {
+      const PolyhedralMesh::Face face = mesh_.mesh().faces[parts[0].face];
+      const bool owns = contains(set, face.owner);
+      mesh_.set_sides(parts[0].face, owns ? change.whole : face.owner, owns ? face.neighbour : change.whole);
+      change.skin.push_back(parts[0].face);
+      return true;
+    }
+    std::vector<std::vector<Vertex>> loops;
+    for (const Outer& part : parts) loops.push_back(loop_from(part.face, part.cell));
+    const std::vector<Vertex> loop = loop_around(loops);
+    if (loop.empty()) return false;
+    const std::int32_t face = mesh_.add_face(loop, change.whole, side.cell, side.surface, side.looks_back);
+    mesh_.measure_face(face);
+    change.skin.push_back(face);
+    for (const Outer& part : parts) change.gone.push_back(part.face);
+    if (side.cell == no_index) return true;
+    std::vector<std::int32_t>& behind = change.behind[side.cell];
+    for (const Outer& part : parts) behind.push_back(part.face);
+    behind.push_back(face);
+    return true;
+  }
+
+  bool apply(const CellSet& set, const Change& change) {
+    for (const std::int32_t cell : set) mesh_.set_faces(cell, {});
+    mesh_.set_faces(change.whole, change.skin);
+    mesh_.set_hex(change.whole, false);
+    const auto is_in = [](const std::vector<std::int32_t>& faces, std::int32_t face) {
+      return std::ranges::find(faces, face) != faces.end();
+    };
+    for (const auto& [cell, parts] : change.behind) {
+      std::vector<std::int32_t> faces;
+      for (const std::int32_t face : mesh_.faces_of(cell))
+        if (!is_in(parts, face)) faces.push_back(face);
+      for (const std::int32_t face : parts)
+        if (!is_in(change.gone, face)) faces.push_back(face);
+      if (faces.size() < 4) return false;
+      mesh_.set_faces(cell, faces);
+      mesh_.set_hex(cell, false);
+    }
+    for (const std::int32_t face : change.gone) mesh_.remove_face(face);
+    mesh_.measure_cell(change.whole);
+    for (const auto& [cell, parts] : change.behind) mesh_.measure_cell(cell);
+    return true;
+  }
+
   bool is_allowed(std::int32_t cell, bool with_hexes) const { return with_hexes || mesh_.mesh().is_hex[cell] == 0; }
 
   // Cells behind faces on no surface, in the same region.

@@ -162,7 +162,8 @@ TEST(Polyhedra, HexesOfASingleLayerAreHalved) {
   }
   // One in a corner has two sides of 1/2 and a middle of 1: by their mean 3/4, 3/4 and 3/2.
   EXPECT_EQ(after.refused().count(), 0U);
-  for (const auto& [surface, area] : areas_of_surfaces(after)) EXPECT_NEAR(norm(area - areas.at(surface)), 0, tolerance);
+  for (const auto& [surface, area] : areas_of_surfaces(after))
+    EXPECT_NEAR(norm(area - areas.at(surface)), 0, tolerance);
 }
 
 TEST(Polyhedra, ABarIsHalvedTwice) {
