@@ -125,7 +125,7 @@ assert_floors() {
 
 @test "rooms stand on floors: mwis, formats, tetmesh, assemble" {
   assert_floors common/mwis ground bounds reduce exact exact/historical local_search .
-  assert_floors formats streams surfaces meshes meshes/libraries choice pipeline points
+  assert_floors formats streams surfaces polyhedra meshes meshes/libraries choice pipeline points
   assert_floors tools/tetmesh geometry fields solid sizing surface volume tetgen search .
   assert_floors tools/assemble hybrid choice shape conform gap layers order pieces .
 }
@@ -166,6 +166,7 @@ namespace_of() {
     common/mesh | common/run) echo hexpipe ;;
     common/*) echo "hexpipe::${room#common/}" ;;
     formats/pipeline) echo hexpipe::pipeline ;;
+    formats/polyhedra) echo hexpipe::polyhedra ;;
     formats/*) echo hexpipe::formats ;;
     tools/viewmesh) echo hexpipe::viewmesh ;;
     tools/hexpipe) echo hexpipe::front_door ;;

@@ -1,5 +1,6 @@
-// mesh_convert INPUT FORMAT OUTPUT [NAMES [PYRAMIDS [HEXES [no-facets]]]]: reads a mesh in any format and writes it in
-// another, for the tests of the formats. NAMES: a text as names.json has it, the others as the tools' options.
+// mesh_convert INPUT FORMAT OUTPUT [NAMES [PYRAMIDS [HEXES [no-facets [POLYHEDRA]]]]]: reads a mesh in any format and
+// writes it in another, for the tests of the formats. NAMES: a text as names.json has it, the others as the tools' options;
+// POLYHEDRA is none by default.
 
 #include <cstdio>
 #include <exception>
@@ -11,17 +12,21 @@
 int main(int argc, char** argv) {
   using namespace hexpipe;
   using namespace hexpipe::formats;
-  if (argc < 4 || argc > 8) {
-    std::fprintf(stderr, "usage: mesh_convert INPUT FORMAT OUTPUT [NAMES [PYRAMIDS [HEXES [no-facets]]]]\n");
+  if (argc < 4 || argc > 9) {
+    std::fprintf(stderr,
+                 "usage: mesh_convert INPUT FORMAT OUTPUT [NAMES [PYRAMIDS [HEXES [no-facets [POLYHEDRA]]]]]\n");
     return 2;
   }
   try {
     Input input = Input::open(argv[1]);
     const MixedMesh mesh = read_mixed_mesh(input);
     const auto argument = [&](int i) { return std::string(i < argc ? argv[i] : ""); };
-    MeshWriting writing = mesh_writing(
-        {.solver = "", .pyramids = argument(5), .hex_element = argument(6), .no_facets = argument(7) == "no-facets"},
-        argv[2]);
+    MeshWriting writing = mesh_writing({.solver = "",
+                                        .pyramids = argument(5),
+                                        .hex_element = argument(6),
+                                        .polyhedra = argc > 8 || argv[2] != poly_mesh_format ? argument(8) : "none",
+                                        .no_facets = argument(7) == "no-facets"},
+                                       argv[2]);
     if (!argument(4).empty()) writing.names = parse_group_names(argument(4), "names");
     writing.tell = [](const std::string& line) { std::fprintf(stderr, "mesh_convert: %s\n", line.c_str()); };
     if (argv[2] == poly_mesh_format) {

@@ -350,7 +350,7 @@ MESH
   awk '!(NR <= 5 || NR % 7 == 0)' full.sol >kuhn.sol
   # Without smoothing there are poor ones.
   assemble --mesh kuhn.mesh --candidates kuhn.cand --solution kuhn.sol --smooth 0 --stats stats.json \
-    --solver openfoam -o case/constant/polyMesh
+    --solver openfoam --polyhedra none -o case/constant/polyMesh
   checkMesh -case case -allGeometry >found.txt
   $PYTHON - <<'PYTHON'
 import json, re
@@ -368,13 +368,11 @@ assert abs(ours["mean_orthogonality"] - number("Max: [0-9.]+ average:")) < 1e-3
 PYTHON
 }
 
-@test "OpenFOAM conducts heat through a mesh of hexes and tets exactly" {
-  need_openfoam
-  openfoam_case case
-  $PYTHON "$DATA/lattices/lattice.py" kuhn 4 >untagged.mesh
-  $PYTHON - <<'PYTHON'
-# The sides x = 0 and x = 4 are surfaces 1 and 2, the others 3.
-import itertools
+# tagged_lattice N: tagged.mesh, tets in a cube. The sides x = 0 and x = N are surfaces 1 and 2, the others 3.
+tagged_lattice() {
+  $PYTHON "$DATA/lattices/lattice.py" kuhn "$1" >untagged.mesh
+  $PYTHON - "$1" <<'PYTHON'
+import itertools, sys
 words = iter(open("untagged.mesh").read().split())
 sections = {}
 for word in words:
@@ -390,15 +388,17 @@ lines = []
 for face, count in faces.items():
     if count == 1:
         xs = {points[v - 1][0] for v in face}
-        lines.append("%d %d %d %d" % (*face, 1 if xs == {0} else 2 if xs == {4} else 3))
+        lines.append("%d %d %d %d" % (*face, 1 if xs == {0} else 2 if xs == {float(sys.argv[1])} else 3))
 open("tagged.mesh", "w").write(text + "Triangles\n%d\n%s\nEnd\n" % (len(lines), "\n".join(lines)))
 PYTHON
-  findhex --mesh tagged.mesh | buildgraph | initsol --iterations 0 |
-    assemble --smooth 0 --solver openfoam -o case/constant/polyMesh
+}
+
+# expect_linear_heat N: laplacianFoam on case finds the temperature x at the centres of cells, N at x = N.
+expect_linear_heat() {
   mkdir case/0
   echo 'FoamFile { version 2.0; format ascii; class volScalarField; object T; }
 dimensions [0 0 0 1 0 0 0]; internalField uniform 0;
-boundaryField { surface_1 { type fixedValue; value uniform 0; } surface_2 { type fixedValue; value uniform 4; }
+boundaryField { surface_1 { type fixedValue; value uniform 0; } surface_2 { type fixedValue; value uniform '"$1"'; }
   surface_3 { type zeroGradient; } }' >case/0/T
   echo 'FoamFile { version 2.0; format ascii; class dictionary; object transportProperties; }
 DT DT [0 2 -1 0 0 0 0] 1;' >case/constant/transportProperties
@@ -415,6 +415,74 @@ T, x = field("T"), field("Cx")
 assert len(T) == len(x) > 60
 assert max(abs(a - b) for a, b in zip(T, x)) < 1e-6, max(abs(a - b) for a, b in zip(T, x))
 PYTHON
+}
+
+@test "OpenFOAM conducts heat through a mesh of hexes and tets exactly" {
+  need_openfoam
+  openfoam_case case
+  tagged_lattice 4
+  findhex --mesh tagged.mesh | buildgraph | initsol --iterations 0 |
+    assemble --smooth 0 --solver openfoam --polyhedra none -o case/constant/polyMesh
+  expect_linear_heat 4
+}
+
+# A plate of one layer, from which some hexes were left out: halves, polyhedra and faces with more corners meet there.
+@test "--polyhedra makes a thin plate and a part OK for checkMesh, and heat flows through it exactly" {
+  need_openfoam
+  openfoam_case case
+  # Exact for linear fields on any cells.
+  sed -i 's/gradSchemes { default Gauss linear; }/gradSchemes { default leastSquares; }/' case/system/fvSchemes
+  $PYTHON - >plate.mesh <<'PYTHON'
+import itertools
+n = 6
+at = lambda i, j, k: (k * (n + 1) + j) * (n + 1) + i + 1
+print("MeshVersionFormatted 2\nDimension 3\nVertices\n%d" % (2 * (n + 1) ** 2))
+for k in range(2):
+    for j in range(n + 1):
+        for i in range(n + 1):
+            print(i, j, k, 0)
+tets, sides = [], []
+for j in range(n):
+    for i in range(n):
+        corner = [at(i + a, j + b, c) for a in (0, 1) for b in (0, 1) for c in (0, 1)]
+        for path in itertools.permutations((4, 2, 1)):
+            tet = [0, path[0], path[0] + path[1], 7]
+            odd = path in ((4, 1, 2), (2, 4, 1), (1, 2, 4))
+            tets.append([corner[v] for v in (tet if not odd else [tet[0], tet[2], tet[1], tet[3]])])
+points = {at(i, j, k): (i, j, k) for i in range(n + 1) for j in range(n + 1) for k in range(2)}
+faces = {}
+for tet in tets:
+    for face in itertools.combinations(tet, 3):
+        faces[tuple(sorted(face))] = faces.get(tuple(sorted(face)), 0) + 1
+for face in (f for f, count in faces.items() if count == 1):
+    xs = {points[v][0] for v in face}
+    sides.append("%d %d %d %d" % (*face, 1 if xs == {0} else 2 if xs == {n} else 3))
+print("Tetrahedra\n%d" % len(tets))
+for tet in tets:
+    print(*tet, 1)
+print("Triangles\n%d\n%s\nEnd" % (len(sides), "\n".join(sides)))
+PYTHON
+  findhex --mesh plate.mesh -o plate.cand
+  findhex --mesh plate.mesh | buildgraph | initsol --iterations 0 -o full.sol
+  awk 'NR % 5 != 0' full.sol >plate.sol
+  plate() { assemble --mesh plate.mesh --candidates plate.cand --solution plate.sol --smooth 0 "$@"; }
+  plate --polyhedra none -o case/constant/polyMesh
+  run checkMesh -case case -allGeometry -allTopology
+  assert_output --partial "Failed 1 mesh checks"
+  run_apart plate -o case/constant/polyMesh
+  assert_equal "$(grep -c 'are halved' <<<"$stderr")" 1
+  run checkMesh -case case -allGeometry -allTopology
+  assert_output --partial "Mesh OK"
+  expect_linear_heat 6
+  plate --polyhedra mend --threads 2 --format polyMesh -o mended
+  assert_same_bytes mended/faces case/constant/polyMesh/faces
+  assert_same_bytes mended/points case/constant/polyMesh/points
+  assert_fails_with 2 "--polyhedra goes with polyMesh, found msh" plate --polyhedra mend -o plate.msh
+  if ! command -v tetmesh; then return 0; fi
+  tetmesh "$DATA/bracket.stl" --size 3 | findhex | buildgraph | initsol --iterations 20000 |
+    assemble -o case/constant/polyMesh 2>/dev/null
+  run checkMesh -case case -allGeometry -allTopology
+  assert_output --partial "Mesh OK"
 }
 
 @test "a polyMesh folder is whole or not there, and another folder is left alone" {

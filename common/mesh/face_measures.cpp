@@ -51,23 +51,25 @@ FaceShape face_shape(std::span<const Vec3> corners) {
   return face;
 }
 
-Vec3 cell_centre(CellKind kind, std::span<const Vec3> corners) {
-  std::array<FaceShape, 6> faces;
-  std::size_t count = 0;
+CellShape cell_shape(std::span<const FaceShape> faces) {
   Vec3 mean{};
-  for_each_face(kind, corners, [&](std::span<const Vec3> face) {
-    faces[count] = face_shape(face);
-    mean += faces[count++].centre;
-  });
-  mean *= 1.0 / static_cast<double>(count);
+  for (const FaceShape& face : faces) mean += face.centre;
+  mean *= 1.0 / static_cast<double>(faces.size());
   Vec3 moment{};
   double volume = 0;
-  for (const FaceShape& face : std::span(faces).first(count)) {
+  for (const FaceShape& face : faces) {
     const double pyramid = dot(face.area, face.centre - mean);
     moment += (face.centre * 0.75 + mean * 0.25) * pyramid;
     volume += pyramid;
   }
-  return std::abs(volume) > tiniest ? moment * (1 / volume) : mean;
+  return {std::abs(volume) > tiniest ? moment * (1 / volume) : mean, volume / 3};
+}
+
+Vec3 cell_centre(CellKind kind, std::span<const Vec3> corners) {
+  std::array<FaceShape, 6> faces;
+  std::size_t count = 0;
+  for_each_face(kind, corners, [&](std::span<const Vec3> face) { faces[count++] = face_shape(face); });
+  return cell_shape(std::span(faces).first(count)).centre;
 }
 
 double orthogonality(const FaceShape& face, const Vec3& behind, const Vec3& before) {
@@ -79,6 +81,17 @@ double face_weight(const FaceShape& face, const Vec3& behind, const Vec3& before
   const double one = std::abs(dot(face.area, face.centre - behind));
   const double two = std::abs(dot(face.area, before - face.centre));
   return std::min(one, two) / (one + two + tiniest);
+}
+
+double face_skewness(std::span<const Vec3> corners, const FaceShape& face, const Vec3& behind, const Vec3* before) {
+  const Vec3 to_face = face.centre - behind;
+  const Vec3 normal = face.area * (1 / (norm(face.area) + tiny));
+  const Vec3 line = before != nullptr ? *before - behind : normal * dot(normal, to_face);
+  const Vec3 miss = to_face - line * (dot(face.area, to_face) / (dot(face.area, line) + tiny));
+  const Vec3 direction = miss * (1 / (norm(miss) + tiny));
+  double width = (before != nullptr ? 0.2 : 0.4) * norm(line) + tiny;
+  for (const Vec3& corner : corners) width = std::max(width, std::abs(dot(direction, corner - face.centre)));
+  return norm(miss) / width;
 }
 
 double face_flatness(std::span<const Vec3> corners) {
@@ -114,20 +127,36 @@ double diagonal_sight(std::span<const Vec3> corners, const Vec3& behind, const V
 double cell_determinant(CellKind kind, std::span<const Vec3> corners, std::span<const std::uint8_t> inner) {
   std::array<Vec3, 6> areas;
   std::size_t count = 0, face_number = 0;
-  double mean = 0;
   for_each_face(kind, corners, [&](std::span<const Vec3> face) {
-    if (inner[face_number++] == 0) return;
-    areas[count] = face_shape(face).area;
-    mean += norm(areas[count++]);
+    if (inner[face_number++] != 0) areas[count++] = face_shape(face).area;
   });
-  if (count == 0 || mean < tiny) return 0;
-  mean /= static_cast<double>(count);
+  return cell_determinant(std::span(areas).first(count));
+}
+
+double cell_determinant(std::span<const Vec3> inner_areas) {
+  double mean = 0;
+  for (const Vec3& area : inner_areas) mean += norm(area);
+  if (mean < tiny) return 0;
+  mean /= static_cast<double>(inner_areas.size());
   std::array<Vec3, 3> rows{};
-  for (const Vec3& area : std::span(areas).first(count)) {
+  for (const Vec3& area : inner_areas) {
     const Vec3 a = area * (1 / mean);
     rows[0] += a * a.x, rows[1] += a * a.y, rows[2] += a * a.z;
   }
   return std::abs(det(rows[0], rows[1], rows[2])) / 8;
+}
+
+bool is_convex(std::span<const FaceShape> faces) {
+  constexpr double flat = 1e-6;  // a sine; OpenFOAM's planarCosAngle
+  for (const FaceShape& face : faces) {
+    const double size = norm(face.area);
+    for (const FaceShape& other : faces) {
+      if (&other == &face) continue;
+      const Vec3 line = other.centre - face.centre;
+      if (!(dot(line, face.area) < -flat * size * norm(line))) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace hexpipe

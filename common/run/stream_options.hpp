@@ -31,6 +31,7 @@ struct MeshOptions {
   std::string solver;       // the program that will read it; empty: no particular one
   std::string pyramids;     // keep, collapsed or split; empty: what suits the solver, otherwise keep
   std::string hex_element;  // Abaqus' type of hexes; empty: what suits the solver, otherwise C3D8
+  std::string polyhedra;    // mend or none, for a polyMesh; empty: mend
   bool no_facets = false;   // write cells only
 };
 

@@ -101,6 +101,13 @@ void declare_mesh_output(CLI::App& app, Role product, MeshOptions& mesh) {
   outside_history(app.add_option("--hex-element", mesh.hex_element, "The type of hexes in .inp: C3D8, C3D8I or C3D8R"))
       ->type_name("TYPE")
       ->check(CLI::IsMember(std::vector<std::string>{"C3D8", "C3D8I", "C3D8R"}));
+  outside_history(
+      app.add_option(
+          "--polyhedra", mesh.polyhedra,
+          "In a polyMesh, mend: where OpenFOAM's checkMesh finds fault, cells are halved or merge to polyhedra, and "
+          "vertices move; none: cells stay as they are [mend]"))
+      ->type_name("HOW")
+      ->check(CLI::IsMember(std::vector<std::string>{"mend", "none"}));
   outside_history(app.add_flag("--no-facets", mesh.no_facets,
                                "Leave facets out of other formats, for readers that take only cells"));
 }

@@ -36,6 +36,7 @@ struct MeshWriting {
   std::string hex_element = "C3D8";  // Abaqus' type of hexes
   std::size_t longest_name = 0;      // of a group, where the solver takes less than the format holds; 0: it does not
   std::vector<TiedNode> tied{};      // in the mesh: what with_split_pyramids left between tets and others
+  bool polyhedra = false;  // in a polyMesh: where checkMesh finds fault, cells become polyhedra (formats/polyhedra)
   // Hears what the writer had to change, a line each. May be empty.
   std::function<void(const std::string&)> tell{};
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -17,18 +18,22 @@
 #include "formats/meshes/facet_table.hpp"
 #include "formats/meshes/group_naming.hpp"
 #include "formats/meshes/mesh_blocks.hpp"
+#include "formats/polyhedra/mend_polyhedra.hpp"
+#include "formats/polyhedra/polyhedral_mesh.hpp"
 #include "formats/streams/number_writer.hpp"
 
 namespace hexpipe::formats {
 namespace {
 
+using polyhedra::PolyhedralMesh;
+
 // Other characters end a word of a dictionary, or mean a pattern.
 constexpr NameRules openfoam_rules{.format = "OpenFOAM", .longest = 255, .others = "-.:+%@~^"};
 constexpr const char* untagged_patch = "defaultFaces";
 
-// A face: its corners as its first cell sees them from inside out, the lowest corner first. A triangle has no fourth.
 using Corners = std::array<Vertex, 4>;
 
+// A triangle has no fourth corner.
 template <std::size_t N>
 Corners face_corners(const std::array<Vertex, N>& corners) {
   Corners face{no_index, no_index, no_index, no_index};
@@ -51,6 +56,7 @@ struct Face {
   std::int32_t owner;
   std::int32_t neighbour = no_index;
   std::int32_t surface = no_index;  // the place of its name; no_index: it has no tag
+  bool flipped = false;             // whether the facet looks against it
 };
 
 bool same_cycle(const Corners& a, const Corners& b) {
@@ -61,11 +67,23 @@ bool same_cycle(const Corners& a, const Corners& b) {
   return true;
 }
 
+// Faces by their vertices: where their surface and cells are the same.
+bool is_before(const PolyhedralMesh& mesh, const PolyhedralMesh::Face& a, const PolyhedralMesh::Face& b) {
+  const auto vertices_of = [&](const PolyhedralMesh::Face& face) {
+    const auto corners = mesh.corners_of(face);
+    std::vector<Vertex> vertices(corners.begin(), corners.end());
+    std::ranges::sort(vertices);
+    return vertices;
+  };
+  return a.count != b.count ? a.count < b.count : vertices_of(a) < vertices_of(b);
+}
+
 class PolyMesh {
  public:
   PolyMesh(const MixedMesh& mesh, const MeshWriting& writing, OutputFolder& folder)
       : mesh_(mesh), writing_(writing), folder_(folder), names_(mesh, writing, openfoam_rules, {untagged_patch}) {
     surface_names_ = names_.surfaces.list();
+    region_names_ = names_.regions.list();
     check_numbers(mesh.cell_count() * 6, most_of_31_bits, folder.name());
     collect_faces();
     join_faces();
@@ -73,6 +91,8 @@ class PolyMesh {
     tag_faces(mesh.triangles);
     tag_faces(mesh.quads);
     tell_of_untagged();
+    make_polyhedra();
+    if (writing.polyhedra) mend();
     order_faces();
   }
 
@@ -130,7 +150,7 @@ class PolyMesh {
                             corners_of_block<Block> == 3 ? "triangles" : "quads", i);
       const std::string& name = names_.surfaces.of(block.tags[i]);
       found->surface = static_cast<std::int32_t>(std::ranges::find(surface_names_, name) - surface_names_.begin());
-      if (found->neighbour != no_index) flipped_[found->key] = !same_cycle(corners, found->corners);
+      found->flipped = found->neighbour != no_index && !same_cycle(corners, found->corners);
     }
   }
 
@@ -155,13 +175,55 @@ class PolyMesh {
     if (count > 0) writing_.say(fmt::format("{} faces on no surface become the patch {}", count, untagged_patch));
   }
 
+  void make_polyhedra() {
+    result_.points = mesh_.points;
+    result_.faces.reserve(faces_.size());
+    result_.corners.reserve(faces_.size() * 4);
+    for (const Face& face : faces_) {
+      result_.add_face(std::span(face.corners).first(corner_count_of(face.corners)), face.owner, face.neighbour);
+      result_.faces.back().surface = face.surface;
+      result_.faces.back().flipped = face.flipped;
+    }
+    faces_ = {};
+    std::map<std::int32_t, std::int32_t> place;  // by tag
+    for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
+      if (names.dimension != 3) return;
+      for (const std::int32_t tag : block.tags) {
+        const auto [at, is_new] = place.try_emplace(tag);
+        if (is_new)
+          at->second = static_cast<std::int32_t>(std::ranges::find(region_names_, names_.regions.of(tag)) -
+                                                 region_names_.begin());
+        result_.regions.push_back(at->second);
+      }
+    });
+    result_.is_hex.assign(result_.regions.size(), 0);
+    std::fill_n(result_.is_hex.begin(), mesh_.hexes.size(), 1);
+  }
+
+  void mend() {
+    std::vector<polyhedra::LayerCell> cells;
+    cells.reserve(mesh_.hexes.size() + mesh_.prisms.size());
+    std::int32_t number = 0;
+    const auto add = [&](CellKind kind, const auto& block) {
+      for (const auto& cell : block.cells) {
+        cells.push_back({number++, kind, {}});
+        std::ranges::copy(cell, cells.back().corners.begin());
+      }
+    };
+    add(CellKind::hex, mesh_.hexes), add(CellKind::prism, mesh_.prisms);
+    const polyhedra::MendCounts counts = polyhedra::mend_polyhedra(result_, cells);
+    if (const std::string line = polyhedra::summary(counts); !line.empty()) writing_.say(line);
+  }
+
   // Faces inside come first, by owner and neighbour; then the others, by patch.
   void order_faces() {
-    std::ranges::sort(faces_, {}, [](const Face& face) {
-      const bool outside = face.neighbour == no_index;
-      return std::tuple(outside, outside ? face.surface : 0, face.owner, face.neighbour, face.key);
+    std::ranges::sort(result_.faces, [&](const PolyhedralMesh::Face& a, const PolyhedralMesh::Face& b) {
+      const auto place = [](const PolyhedralMesh::Face& face) {
+        return std::tuple(!face.is_inner(), face.is_inner() ? 0 : face.surface, face.owner, face.neighbour);
+      };
+      return place(a) != place(b) ? place(a) < place(b) : is_before(result_, a, b);
     });
-    inside_ = std::ranges::count_if(faces_, [](const Face& face) { return face.neighbour != no_index; });
+    inside_ = std::ranges::count_if(result_.faces, &PolyhedralMesh::Face::is_inner);
   }
 
   Output& open(const char* file, const char* type, const std::string& note = "") {
@@ -174,35 +236,34 @@ class PolyMesh {
 
   void write_points() {
     Output& output = open("points", "vectorField");
-    output.print("{}\n(\n", mesh_.points.size());
-    for (const Vec3& p : mesh_.points) output.print("({} {} {})\n", p.x, p.y, p.z);
+    output.print("{}\n(\n", result_.points.size());
+    for (const Vec3& p : result_.points) output.print("({} {} {})\n", p.x, p.y, p.z);
     output.print(")\n");
     output.drain();
   }
 
   void write_faces() {
     Output& output = open("faces", "faceList");
-    output.print("{}\n(\n", faces_.size());
-    for (const Face& face : faces_) {
-      const std::size_t count = corner_count_of(face.corners);
-      output.print("{}({})\n", count, fmt::join(face.corners.begin(), face.corners.begin() + count, " "));
-    }
+    output.print("{}\n(\n", result_.faces.size());
+    for (const PolyhedralMesh::Face& face : result_.faces)
+      output.print("{}({})\n", face.count, fmt::join(result_.corners_of(face), " "));
     output.print(")\n");
     output.drain();
   }
 
   void write_cells_of_faces() {
-    const std::string note = fmt::format("nPoints: {} nCells: {} nFaces: {} nInternalFaces: {}", mesh_.points.size(),
-                                         mesh_.cell_count(), faces_.size(), inside_);
+    const auto& faces = result_.faces;
+    const std::string note = fmt::format("nPoints: {} nCells: {} nFaces: {} nInternalFaces: {}", result_.points.size(),
+                                         result_.regions.size(), faces.size(), inside_);
     Output& owners = open("owner", "labelList", note);
-    owners.print("{}\n(\n", faces_.size());
-    for (const Face& face : faces_) owners.print("{}\n", face.owner);
+    owners.print("{}\n(\n", faces.size());
+    for (const PolyhedralMesh::Face& face : faces) owners.print("{}\n", face.owner);
     owners.print(")\n");
     owners.drain();
     Output& neighbours = open("neighbour", "labelList", note);
     neighbours.print("{}\n(\n", inside_);
-    for (const Face& face : faces_)
-      if (face.neighbour != no_index) neighbours.print("{}\n", face.neighbour);
+    for (const PolyhedralMesh::Face& face : faces)
+      if (face.is_inner()) neighbours.print("{}\n", face.neighbour);
     neighbours.print(")\n");
     neighbours.drain();
   }
@@ -214,8 +275,9 @@ class PolyMesh {
       std::size_t start, count;
     };
     std::vector<Patch> patches;
-    for (std::size_t i = static_cast<std::size_t>(inside_); i < faces_.size(); ++i) {
-      if (patches.empty() || patches.back().surface != faces_[i].surface) patches.push_back({faces_[i].surface, i, 0});
+    for (std::size_t i = static_cast<std::size_t>(inside_); i < result_.faces.size(); ++i) {
+      const std::int32_t surface = result_.faces[i].surface;
+      if (patches.empty() || patches.back().surface != surface) patches.push_back({surface, i, 0});
       ++patches.back().count;
     }
     Output& output = open("boundary", "polyBoundaryMesh");
@@ -229,17 +291,15 @@ class PolyMesh {
   }
 
   void write_cell_zones() {
-    std::map<std::string, std::vector<std::int32_t>> cells;
-    std::int32_t cell = 0;
-    for_each_block(mesh_, [&](const ElementNames& names, const auto& block) {
-      if (names.dimension != 3) return;
-      for (const std::int32_t tag : block.tags) cells[names_.regions.of(tag)].push_back(cell++);
-    });
+    std::vector<std::vector<std::int32_t>> cells(region_names_.size());
+    for (std::size_t cell = 0; cell < result_.regions.size(); ++cell)
+      cells[static_cast<std::size_t>(result_.regions[cell])].push_back(static_cast<std::int32_t>(cell));
+    const auto zone_count = std::ranges::count_if(cells, [](const auto& list) { return !list.empty(); });
     Output& output = open("cellZones", "regIOobject");
-    output.print("{}\n(\n", cells.size());
-    for (const std::string& name : names_.regions.list())
-      output.print("{}\n{{\n    type cellZone;\n    cellLabels List<label>\n{}\n(\n{}\n)\n;\n}}\n", name,
-                   cells[name].size(), fmt::join(cells[name], "\n"));
+    output.print("{}\n(\n", zone_count);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      output.print("{}\n{{\n    type cellZone;\n    cellLabels List<label>\n{}\n(\n{}\n)\n;\n}}\n", region_names_[i],
+                   cells[i].size(), fmt::join(cells[i], "\n"));
     output.print(")\n");
     output.drain();
   }
@@ -248,14 +308,14 @@ class PolyMesh {
   void write_face_zones() {
     std::map<std::int32_t, std::vector<std::size_t>> zones;
     for (std::size_t i = 0; i < static_cast<std::size_t>(inside_); ++i)
-      if (faces_[i].surface != no_index) zones[faces_[i].surface].push_back(i);
+      if (result_.faces[i].surface != no_index) zones[result_.faces[i].surface].push_back(i);
     Output& output = open("faceZones", "regIOobject");
     output.print("{}\n(\n", zones.size());
     for (const auto& [surface, list] : zones) {
       output.print(
           "{}\n{{\n    type faceZone;\n    faceLabels List<label>\n{}\n(\n{}\n)\n;\n    flipMap List<bool>\n{}\n(\n",
           surface_names_[static_cast<std::size_t>(surface)], list.size(), fmt::join(list, "\n"), list.size());
-      for (const std::size_t face : list) output.print("{}\n", flipped_.at(faces_[face].key) ? 1 : 0);
+      for (const std::size_t face : list) output.print("{}\n", result_.faces[face].flipped ? 1 : 0);
       output.print(")\n;\n}}\n");
     }
     output.print(")\n");
@@ -266,9 +326,9 @@ class PolyMesh {
   const MeshWriting& writing_;
   OutputFolder& folder_;
   GroupNamings names_;
-  std::vector<std::string> surface_names_;
-  std::vector<Face> faces_;
-  std::map<Corners, bool> flipped_;  // whether a facet looks against its face
+  std::vector<std::string> surface_names_, region_names_;
+  std::vector<Face> faces_;  // of the cells, until result_ has them
+  PolyhedralMesh result_;
   std::int64_t inside_ = 0;
 };
 

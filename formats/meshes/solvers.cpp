@@ -76,6 +76,9 @@ MeshWriting mesh_writing(const MeshOptions& options, std::string_view format) {
     if (format != "inp") throw UsageError(fmt::format("--hex-element goes with inp, found {}", format));
     writing.hex_element = options.hex_element;
   }
+  if (!options.polyhedra.empty() && format != poly_mesh_format)
+    throw UsageError(fmt::format("--polyhedra goes with polyMesh, found {}", format));
+  writing.polyhedra = format == poly_mesh_format && options.polyhedra != "none";
   writing.facets = !options.no_facets;
   return writing;
 }

@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+"""checkmesh.py [--size middle|fine] [--models NAME...] [--alone] - does OpenFOAM's checkMesh say "Mesh OK" to polyMeshes of
+real models, as assemble writes them and with --polyhedra none, and to snappyHexMesh's in cells of the same size.
+
+Goal: `checkMesh -allGeometry -allTopology` has nothing to say against any of the eleven, and hexes lose at most 0.1 points of
+the volume. Columns: the checks that fail, with their cells and faces; faces over 70 degrees; hexes in percent of the number,
+by checkMesh, and of the volume; seconds of assemble. For ours also cells that were halved, cut, merged, and polyhedra. Ends
+with 1 unless all models reach the goal."""
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import layers
+import openfoam
+from openfoam import make_case, run
+
+SIZES = {  # middle, fine
+    "bridge.stl": (0.3571, 0.25), "mambo-m1.stl": (3.2, 2.2), "mambo-m6.stl": (2.1, 1.45), "mambo-s1.stl": (3.3, 2.3),
+    "mambo-s22.stl": (3.857, 2.7), "mambo-s27.stl": (2.05, 1.42), "notch.stl": (0.03571, 0.025), "plate-holes.stl": (10.89, 7.623),
+    "simp.stl": (6.786, 4.75), "spot.obj": (0.06135, 0.04295), "blub.off": (0.1039, 0.07273),
+}
+FAILURES = {"small determinant": "det", "Concave cells": "concave", "face tets": "tets", "interpolation weight": "weight",
+            "volume ratio": "ratio", "non-orthogonality errors": "angle", "skew": "skew", "face pyramids": "pyramids"}
+
+
+def checked(case):
+    """Whether checkMesh says "Mesh OK", what fails, faces over 70 degrees, and the share of the number that are hexes."""
+    text = run(["checkMesh", "-case", case, "-allGeometry", "-allTopology"])[0].stdout
+    failed = []
+    for line in text.splitlines():
+        if line.startswith(" ***"):
+            numbers = re.findall(r"\b\d+\b", re.sub(r"\([^)]*\)", "", line))
+            failed.append(next((short for words, short in FAILURES.items() if words in line), line[4:24]) + (":" + numbers[-1] if numbers else ""))
+    severe = re.search(r"severely non-orthogonal \(> 70 degrees\) faces: (\d+)", text)
+    number = lambda word: int(re.search(rf"^ *{word}: +(\d+)", text, re.M)[1])
+    return "Mesh OK" in text, ",".join(failed) or "ok", severe[1] if severe else "0", f"{100 * number('hexahedra') / number('cells'):.2f}"
+
+
+def ours(folder, how):
+    """The seconds of assemble, what it says, and checkMesh's findings."""
+    case = f"{folder}/{how}"
+    make_case(case)
+    done, seconds = run([layers.tool("assemble"), "--threads", "1", f"{folder}/part.tar", "--polyhedra", how, "-o", f"{case}/constant/polyMesh"])
+    if done.returncode != 0:
+        sys.exit(done.stdout)
+    return seconds, done.stdout, checked(case)
+
+
+def snappy(folder, surface, size):
+    case = f"{folder}/snappy"
+    make_case(case)
+    os.makedirs(f"{case}/constant/triSurface", exist_ok=True)
+    import meshio
+    mesh = meshio.read(surface)
+    meshio.write_points_cells(f"{case}/constant/triSurface/part.stl", mesh.points, {"triangle": mesh.cells_dict["triangle"]})
+    box = mesh.points.min(0) - 1.5 * size, mesh.points.max(0) + 1.5 * size
+    subprocess.run([layers.tool("assemble"), "-q", f"{folder}/part.tar", "-o", f"{folder}/plain.vtu"], check=True)
+    added = openfoam.snappy(case, box, size, layers.inner_point(folder, size), "none", 0, size / 10, 1.2)[0]
+    return ["failed"] * 3 if added is None else checked(case)[1:]
+
+
+def bench(model, args):
+    size = SIZES[model][("middle", "fine").index(args.size)]
+    surface = os.path.join(layers.MODELS, model)
+    with tempfile.TemporaryDirectory() as folder:
+        pipe = " | ".join([f"{layers.tool('tetmesh')} -q {surface} --size {size}", *(f"{layers.tool(name)} -q" for name in ("findhex", "buildgraph", "initsol")),
+                           f"{layers.tool('lns')} -q -o {folder}/part.tar"])
+        subprocess.run(["bash", "-o", "pipefail", "-c", pipe], check=True)
+        plain, _, before = ours(folder, "none")
+        seconds, said, after = ours(folder, "mend")
+        changes = re.search(r"(\d+) are halved, (\d+) cut, (\d+) merged into (\d+) polyhedra, and (\d+) vertices moved; hexes are ([\d.]+) % of the volume, ([\d.]+) before", said)
+        changes = changes.groups() if changes else ("0",) * 5 + ("100", "100")
+        lost = float(changes[6]) - float(changes[5])
+        cells = [f"{plain:.1f}", *before[1:], f"{seconds:.1f}", *after[1:], *changes[:5], f"{lost:.2f}"]
+        if shutil.which("snappyHexMesh") and not args.alone:
+            cells += snappy(folder, surface, size)
+        print(f"{model:16} " + " ".join(f"{cell:>8}" for cell in cells), flush=True)
+        return after[0] and lost <= 0.1
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--size", choices=("middle", "fine"), default="middle")
+    parser.add_argument("--models", nargs="*", default=list(SIZES))
+    parser.add_argument("--alone", action="store_true", help="without snappyHexMesh")
+    args = parser.parse_args()
+    if shutil.which("checkMesh") is None:
+        sys.exit("checkMesh is not installed")
+    titles = "seconds none severe hexes seconds mended severe hexes halved cut merged into moved lost snappy severe hexes".split()
+    print(f"{'model':16} " + " ".join(f"{title:>8}" for title in (titles[:-3] if args.alone else titles)))
+    good = [bench(model, args) for model in args.models]
+    print(f"{sum(good)} of {len(good)} reach the goal")
+    sys.exit(0 if all(good) else 1)
+
+
+if __name__ == "__main__":
+    main()
