@@ -51,7 +51,8 @@ for_tools() {
     read -r tool input last <<<"$case"
     LD_PRELOAD=$library HEXPIPE_FAULT=count:count $tool -q $input -o out.tar
     calls=$(sed -n 's/^memory //p' count)
-    for ((number = calls - last; number <= calls; number += 1)); do
+    # Every third: allocations come in longer rows of a kind.
+    for ((number = calls - last; number <= calls; number += 3)); do
       code=0
       LD_PRELOAD=$library HEXPIPE_FAULT=memory:$number $tool -q $input -o out.tar 2>message || code=$?
       if ((code > 1)); then fail "$tool ends with $code when allocation $number of $calls fails"; fi
