@@ -42,7 +42,7 @@ class Cutter {
     std::set<std::int32_t> changed;
     for (const std::int32_t cell : around)
       for (const std::int32_t face : mesh_.faces_of(cell))
-        if (has_edge(face, cut.from, cut.to)) changed.insert(face);
+        if (has_edge(mesh_, face, cut.from, cut.to)) changed.insert(face);
     for (const std::int32_t face : changed) {
       std::vector<Vertex> loop;
       const auto corners = mesh_.mesh().corners_of(mesh_.mesh().faces[face]);
@@ -78,22 +78,7 @@ class Cutter {
   }
 
  private:
-  std::vector<Vertex> loop_of(std::int32_t face) const {
-    const PolyhedralMesh::Face& at = mesh_.mesh().faces[face];
-    const auto corners = mesh_.mesh().corners_of(at);
-    std::vector<Vertex> loop(corners.begin(), corners.end());
-    if (at.owner != cell_) std::ranges::reverse(loop);
-    return loop;
-  }
-
-  bool has_edge(std::int32_t face, Vertex a, Vertex b) const {
-    const auto corners = mesh_.mesh().corners_of(mesh_.mesh().faces[face]);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vertex p = corners[i], q = corners[(i + 1) % corners.size()];
-      if ((p == a && q == b) || (p == b && q == a)) return true;
-    }
-    return false;
-  }
+  std::vector<Vertex> loop_of(std::int32_t face) const { return loop_from(mesh_, face, cell_); }
 
   // The face of the cell that has this edge in this direction, as seen from outside.
   std::int32_t face_with(Vertex from, Vertex to) const {
@@ -132,18 +117,7 @@ class Cutter {
   }
 
   CellSet cells_at_edge(Vertex a, Vertex b) const {
-    CellSet found;
-    std::vector<std::int32_t> next{cell_};
-    while (!next.empty()) {
-      const std::int32_t cell = next.back();
-      next.pop_back();
-      if (contains(found, cell)) continue;
-      found.insert(std::ranges::upper_bound(found, cell), cell);
-      for (const std::int32_t face : mesh_.faces_of(cell))
-        if (mesh_.mesh().faces[face].is_inner() && has_edge(face, a, b))
-          next.push_back(mesh_.mesh().faces[face].other_cell(cell));
-    }
-    return found;
+    return cells_joined_by(mesh_, cell_, [&](std::int32_t face) { return has_edge(mesh_, face, a, b); });
   }
 
   // Away from the cells behind the two faces, and along the boundary.
@@ -154,7 +128,7 @@ class Cutter {
       if (mesh_.mesh().faces[face].is_inner()) way -= unit(mesh_.area(face, cell_));
     for (const std::int32_t cell : cells_at_edge(cut.from, cut.to))
       for (const std::int32_t face : mesh_.faces_of(cell)) {
-        if (mesh_.mesh().faces[face].is_inner() || !has_edge(face, cut.from, cut.to)) continue;
+        if (mesh_.mesh().faces[face].is_inner() || !has_edge(mesh_, face, cut.from, cut.to)) continue;
         const Vec3 normal = unit(mesh_.shape(face).area);
         way -= normal * dot(way, normal);
       }

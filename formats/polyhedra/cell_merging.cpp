@@ -25,34 +25,6 @@ CellSet with(CellSet cells, std::int32_t cell) {
   return cells;
 }
 
-// The loop around faces that meet at edges, which are loops themselves with the same sense; empty if there are several,
-// or one that passes a corner twice.
-std::vector<Vertex> loop_around(const std::vector<std::vector<Vertex>>& faces) {
-  std::set<std::pair<std::int32_t, std::int32_t>> edges;
-  for (const auto& face : faces)
-    for (std::size_t i = 0; i < face.size(); ++i) edges.emplace(face[i], face[(i + 1) % face.size()]);
-  std::map<std::int32_t, std::int32_t> next;
-  std::int32_t first = no_index;
-  std::size_t count = 0;
-  for (const auto& face : faces)
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const std::int32_t a = face[i], b = face[(i + 1) % face.size()];
-      if (edges.contains({b, a})) continue;
-      if (!next.emplace(a, b).second) return {};
-      if (first == no_index) first = a;
-      ++count;
-    }
-  std::vector<Vertex> loop;
-  for (std::int32_t at = first; loop.size() < count;) {
-    loop.emplace_back(at);
-    const auto found = next.find(at);
-    if (found == next.end()) return {};
-    at = found->second;
-    if (at == first) break;
-  }
-  return loop.size() == count && count >= 3 ? loop : std::vector<Vertex>{};
-}
-
 class Merger {
  public:
   explicit Merger(MeasuredMesh& mesh) : mesh_(mesh) {}
@@ -162,7 +134,7 @@ class Merger {
       return true;
     }
     std::vector<std::vector<Vertex>> loops;
-    for (const Outer& part : parts) loops.push_back(loop_from(part.face, part.cell));
+    for (const Outer& part : parts) loops.push_back(loop_from(mesh_, part.face, part.cell));
     const std::vector<Vertex> loop = loop_around(loops);
     if (loop.empty()) return false;
     const std::int32_t face = mesh_.add_face(loop, change.whole, side.cell, side.surface, side.looks_back);
@@ -219,15 +191,6 @@ class Merger {
     return found;
   }
 
-  // As seen from outside the cell.
-  std::vector<Vertex> loop_from(std::int32_t number, std::int32_t cell) const {
-    const PolyhedralMesh::Face& face = mesh_.mesh().faces[number];
-    const auto corners = mesh_.mesh().corners_of(face);
-    std::vector<Vertex> loop(corners.begin(), corners.end());
-    if (face.owner != cell) std::ranges::reverse(loop);
-    return loop;
-  }
-
   bool share_an_edge(std::int32_t one, std::int32_t two) const {
     const auto a = mesh_.mesh().corners_of(mesh_.mesh().faces[one]),
                b = mesh_.mesh().corners_of(mesh_.mesh().faces[two]);
@@ -253,7 +216,7 @@ class Merger {
     std::set<std::pair<std::int32_t, std::int32_t>> edges;
     std::set<std::int32_t> vertices;
     for (const std::int32_t face : skin) {
-      const std::vector<Vertex> loop = loop_from(face, whole);
+      const std::vector<Vertex> loop = loop_from(mesh_, face, whole);
       for (std::size_t i = 0; i < loop.size(); ++i) {
         vertices.insert(loop[i]);
         if (!edges.emplace(loop[i], loop[(i + 1) % loop.size()]).second) return false;

@@ -1,5 +1,8 @@
 #include "formats/polyhedra/local_changes.hpp"
 
+#include <map>
+#include <set>
+
 namespace hexpipe::polyhedra {
 
 CellSet with_neighbours(const MeasuredMesh& mesh, const CellSet& cells) {
@@ -10,6 +13,48 @@ CellSet with_neighbours(const MeasuredMesh& mesh, const CellSet& cells) {
   std::ranges::sort(all);
   all.erase(std::ranges::unique(all).begin(), all.end());
   return all;
+}
+
+std::vector<Vertex> loop_from(const MeasuredMesh& mesh, std::int32_t face, std::int32_t cell) {
+  const auto corners = mesh.mesh().corners_of(mesh.mesh().faces[face]);
+  std::vector<Vertex> loop(corners.begin(), corners.end());
+  if (mesh.mesh().faces[face].owner != cell) std::ranges::reverse(loop);
+  return loop;
+}
+
+std::vector<Vertex> loop_around(const std::vector<std::vector<Vertex>>& faces) {
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  for (const auto& face : faces)
+    for (std::size_t i = 0; i < face.size(); ++i) edges.emplace(face[i], face[(i + 1) % face.size()]);
+  std::map<std::int32_t, std::int32_t> next;
+  std::int32_t first = no_index;
+  std::size_t count = 0;
+  for (const auto& face : faces)
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const std::int32_t a = face[i], b = face[(i + 1) % face.size()];
+      if (edges.contains({b, a})) continue;
+      if (!next.emplace(a, b).second) return {};
+      if (first == no_index) first = a;
+      ++count;
+    }
+  std::vector<Vertex> loop;
+  for (std::int32_t at = first; loop.size() < count;) {
+    loop.emplace_back(at);
+    const auto found = next.find(at);
+    if (found == next.end()) return {};
+    at = found->second;
+    if (at == first) break;
+  }
+  return loop.size() == count && count >= 3 ? loop : std::vector<Vertex>{};
+}
+
+bool has_edge(const MeasuredMesh& mesh, std::int32_t face, Vertex a, Vertex b) {
+  const auto corners = mesh.mesh().corners_of(mesh.mesh().faces[face]);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vertex p = corners[i], q = corners[(i + 1) % corners.size()];
+    if ((p == a && q == b) || (p == b && q == a)) return true;
+  }
+  return false;
 }
 
 RefusalCount count_refusals(const MeasuredMesh& mesh, const CellSet& cells) {

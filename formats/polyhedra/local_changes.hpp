@@ -20,6 +20,31 @@ inline bool contains(const CellSet& cells, std::int32_t cell) {
 
 CellSet with_neighbours(const MeasuredMesh& mesh, const CellSet& cells);
 
+// A face's corners, counter-clockwise as seen from outside the cell.
+std::vector<Vertex> loop_from(const MeasuredMesh& mesh, std::int32_t face, std::int32_t cell);
+
+// The loop around faces that meet at edges, which are loops themselves with the same sense; empty if there are several,
+// or one that passes a corner twice.
+std::vector<Vertex> loop_around(const std::vector<std::vector<Vertex>>& faces);
+
+bool has_edge(const MeasuredMesh& mesh, std::int32_t face, Vertex a, Vertex b);
+
+// The cell, and those that are joined to it by faces for which holds(face).
+template <class Holds>
+CellSet cells_joined_by(const MeasuredMesh& mesh, std::int32_t cell, Holds&& holds) {
+  CellSet found;
+  std::vector<std::int32_t> next{cell};
+  while (!next.empty()) {
+    const std::int32_t at = next.back();
+    next.pop_back();
+    if (contains(found, at)) continue;
+    found.insert(std::ranges::upper_bound(found, at), at);
+    for (const std::int32_t face : mesh.faces_of(at))
+      if (mesh.mesh().faces[face].is_inner() && holds(face)) next.push_back(mesh.mesh().faces[face].other_cell(at));
+  }
+  return found;
+}
+
 // Compared in this order, less is better.
 struct Worth {
   std::int64_t refused = 0;  // cells and faces with something wrong more than before

@@ -115,15 +115,19 @@ Refusals MeasuredMesh::refusals_of_cell(std::int32_t cell) const {
 
 double MeasuredMesh::trouble(std::int32_t cell) const {
   if ((refusals_of_cell(cell) & wrong) == 0) return 0;
-  Scratch<Vec3> inner;
-  double trouble = 0;
+  Scratch<Vec3> inner, normals;
   for (const std::int32_t face : faces_of(cell)) {
-    const Vec3 normal = unit(area(face, cell));
+    normals.add(unit(area(face, cell)));
     if (mesh_.faces[face].is_inner()) inner.add(shapes_[face].area);
-    for (const std::int32_t other : faces_of(cell))
-      if (other != face)
-        trouble += std::max(0.0, dot(unit(shapes_[other].centre - shapes_[face].centre), normal) + 1e-5);
   }
+  const std::span<const std::int32_t> faces = faces_of(cell);
+  double trouble = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const Vec3 line = unit(shapes_[faces[i]].centre - shapes_[faces[k]].centre);
+      trouble +=
+          std::max(0.0, dot(line, normals.span()[k]) + 1e-5) + std::max(0.0, 1e-5 - dot(line, normals.span()[i]));
+    }
   return trouble + std::max(0.0, 1 - cell_determinant(inner.span()) / low_determinant) + 1e-12;
 }
 
@@ -229,6 +233,11 @@ void MeasuredMesh::set_loop(std::int32_t face, std::span<const Vertex> loop) {
   mesh_.faces[face].begin = mesh_.corners.size();
   mesh_.faces[face].count = static_cast<std::int32_t>(loop.size());
   mesh_.corners.insert(mesh_.corners.end(), loop.begin(), loop.end());
+}
+
+void MeasuredMesh::set_surface(std::int32_t face, std::int32_t surface, bool flipped) {
+  mesh_.faces[face].surface = surface;
+  mesh_.faces[face].flipped = flipped;
 }
 
 void MeasuredMesh::set_faces(std::int32_t cell, std::span<const std::int32_t> faces) {

@@ -69,6 +69,7 @@ class MeasuredMesh {
   std::int32_t add_cell_after(std::int32_t cell);
   void set_sides(std::int32_t face, std::int32_t owner, std::int32_t neighbour);
   void set_loop(std::int32_t face, std::span<const Vertex> loop);
+  void set_surface(std::int32_t face, std::int32_t surface, bool flipped);
   void remove_face(std::int32_t face) { set_sides(face, no_index, no_index); }
   void set_faces(std::int32_t cell, std::span<const std::int32_t> faces);
   void set_hex(std::int32_t cell, bool is_hex) { mesh_.is_hex[cell] = is_hex ? 1 : 0; }

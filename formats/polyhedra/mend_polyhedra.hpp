@@ -23,10 +23,12 @@ struct MendCounts {
   std::int64_t halved = 0, cut = 0;              // cells that were halved in sheets, and that were cut alone
   std::int64_t merged = 0, into = 0;             // cells that became parts of polyhedra; the number of these polyhedra
   std::int64_t moved = 0;                        // vertices
+  std::int64_t left_out = 0;                     // flat cells at the boundary
+  double left_out_volume = 0;                    // their share of the volume
   double hexes_before = 0, hexes = 0;            // their share of the volume
   std::int64_t refused_before = 0, refused = 0;  // cells and faces with something wrong
 
-  bool changed() const { return halved + cut + merged + moved > 0; }
+  bool changed() const { return halved + cut + merged + left_out + moved > 0; }
 };
 
 // Halves hexes and prisms of a single layer between two facets of the boundary, whose determinant is low, and with them
@@ -37,7 +39,8 @@ std::int64_t split_single_layers(MeasuredMesh& mesh, std::vector<LayerCell> cell
                                  const MeasuredMesh::Refused& refused);
 
 // The same; and then, for each cell that is wrong or has such a face, the first of these that helps: a vertex moves;
-// cells merge to a polyhedron; the cell is cut in two; several vertices move, of the cell or of a polyhedron around it.
+// cells merge to a polyhedron; the cell is cut in two; it is left out, where it is flat at the boundary; several
+// vertices move, of the cell or of a polyhedron around it; it is left out and a cell behind it is mended.
 // Hexes become polyhedra only if nothing else helps, up to a thousandth of the volume. Regions, facets between cells,
 // and borders between surfaces stay. `cells` has all hexes and prisms.
 //

@@ -185,9 +185,7 @@ std::optional<Move> best_move(MeasuredMesh& mesh, std::int32_t cell) {
   return found;
 }
 
-std::int64_t climb(MeasuredMesh& mesh, std::int32_t cell, std::int64_t refused_before) {
-  constexpr int most_steps = 8;
-  constexpr std::size_t most_tried = 12;
+std::int64_t climb(MeasuredMesh& mesh, std::int32_t cell, std::int64_t refused_before, ClimbEffort effort) {
   struct Step {
     double trouble;
     Vertex vertex;
@@ -196,7 +194,7 @@ std::int64_t climb(MeasuredMesh& mesh, std::int32_t cell, std::int64_t refused_b
   std::vector<Step> made;  // with the places before
   std::int64_t refused = refused_before;
   double trouble = mesh.trouble(cell);
-  for (int step = 0; step < most_steps && trouble > 0; ++step) {
+  for (int step = 0; step < effort.steps && trouble > 0; ++step) {
     std::set<Vertex> vertices;
     for (const std::int32_t face : mesh.faces_of(cell))
       for (const Vertex v : mesh.mesh().corners_of(mesh.mesh().faces[face])) vertices.insert(v);
@@ -206,7 +204,7 @@ std::int64_t climb(MeasuredMesh& mesh, std::int32_t cell, std::int64_t refused_b
         if (there < 0.95 * trouble) steps.push_back({there, vertex, place});
       });
     std::ranges::stable_sort(steps, {}, &Step::trouble);
-    if (steps.size() > most_tried) steps.resize(most_tried);
+    if (steps.size() > effort.tried) steps.resize(effort.tried);
     bool found = false;
     for (const Step& one : steps) {
       Mover mover(mesh, cell, one.vertex);

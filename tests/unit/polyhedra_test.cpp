@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "formats/polyhedra/leaving_out.hpp"
 #include "formats/polyhedra/mend_polyhedra.hpp"
 
 namespace hexpipe::polyhedra {
@@ -236,6 +237,113 @@ TEST(Polyhedra, NothingCrossesTheBorderOfARegionOrAFacetInside) {
     if (!face.is_inner()) continue;
     EXPECT_EQ(face.surface == border, sample.mesh.regions[face.owner] != sample.mesh.regions[face.neighbour]);
   }
+}
+
+// A square with corners 0 to 3, of which 1 and 3 are lower. On top is a tet between both diagonals, with two facets on
+// the boundary; two others stand below, on a tip.
+Sample roof(double height) {
+  Sample sample;
+  sample.mesh.points = {{0, 0, 0}, {2, 0, -height}, {2, 2, 0}, {0, 2, -height}, {1, 1, -2}};
+  sample.add<TetTopology>({0, 2, 1, 3});
+  sample.add<TetTopology>({0, 3, 1, 4});
+  sample.add<TetTopology>({1, 3, 2, 4});
+  for (PolyhedralMesh::Face& face : sample.mesh.faces)
+    if (!face.is_inner()) face.surface = 0;
+  return sample;
+}
+
+std::vector<std::vector<Vertex>> sorted_facets(const PolyhedralMesh& mesh) {
+  std::vector<std::vector<Vertex>> facets;
+  for (const PolyhedralMesh::Face& face : mesh.faces) {
+    if (face.owner == no_index || face.is_inner()) continue;
+    facets.emplace_back(mesh.corners_of(face).begin(), mesh.corners_of(face).end());
+    std::ranges::sort(facets.back());
+  }
+  std::ranges::sort(facets);
+  return facets;
+}
+
+TEST(Polyhedra, AFlatTetIsLeftOutAndItsEdgeFlipped) {
+  constexpr double height = 0.03;
+  Sample sample = roof(height);
+  MeasuredMesh mesh(sample.mesh);
+  const double volume = volume_of_region(mesh, 0);
+  // Two edges of 2 sqrt(2), across each other at this distance.
+  EXPECT_NEAR(mesh.volume(0), 8 * height / 6, tolerance);
+  EXPECT_EQ(mesh.refusals_of_cell(0) & determinant, determinant);
+  ASSERT_TRUE(worth_of_leaving_out(mesh, 0));
+  EXPECT_EQ(mesh.faces_of(0).size(), 4U);  // it is taken back
+  ASSERT_TRUE(leave_out(mesh, 0));
+  renumber(sample.mesh, mesh.order());
+  expect_sound(sample.mesh);
+  const MeasuredMesh after(sample.mesh);
+  EXPECT_EQ(after.cell_count(), 2U);
+  EXPECT_NEAR(volume_of_region(after, 0), volume - 8 * height / 6, tolerance);
+  const std::vector<std::vector<Vertex>> expected{{0, 1, 3}, {0, 1, 4}, {0, 3, 4}, {1, 2, 3}, {1, 2, 4}, {2, 3, 4}};
+  EXPECT_EQ(sorted_facets(sample.mesh), expected);
+  for (const PolyhedralMesh::Face& face : sample.mesh.faces) {
+    EXPECT_EQ(face.surface, face.is_inner() ? no_index : 0);
+    EXPECT_FALSE(face.flipped);
+  }
+  // Facets look outward, and close.
+  EXPECT_NEAR(norm(areas_of_surfaces(after)[0]), 0, tolerance);
+}
+
+TEST(Polyhedra, ATetWithThreeFacetsIsLeftOutWithItsVertex) {
+  Sample sample;
+  sample.mesh.points = {{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 0.7, 0.1}, {1, 0.7, -2}};
+  sample.add<TetTopology>({0, 1, 2, 3});
+  sample.add<TetTopology>({0, 2, 1, 4});
+  for (PolyhedralMesh::Face& face : sample.mesh.faces)
+    if (!face.is_inner()) face.surface = face.owner;
+  MeasuredMesh mesh(sample.mesh);
+  // The one behind would have no neighbour.
+  EXPECT_FALSE(worth_of_leaving_out(mesh, 0));
+  sample.mesh.points.push_back({-2, 1, -1});
+  sample.add<TetTopology>({0, 2, 4, 5});
+  for (PolyhedralMesh::Face& face : sample.mesh.faces)
+    if (!face.is_inner()) face.surface = face.owner;
+  MeasuredMesh more(sample.mesh);
+  ASSERT_TRUE(worth_of_leaving_out(more, 0));
+  ASSERT_TRUE(leave_out(more, 0));
+  renumber(sample.mesh, more.order());
+  expect_sound(sample.mesh);
+  EXPECT_EQ(sample.mesh.points.size(), 5U);
+  for (const Vec3& p : sample.mesh.points) EXPECT_LE(p.z, 0);
+  EXPECT_NEAR(norm(areas_of_surfaces(MeasuredMesh(sample.mesh))[0] - Vec3{0, 0, 2}), 0, tolerance);
+}
+
+TEST(Polyhedra, ACellStaysWhereTheBoundaryWouldChange) {
+  const auto is_kept = [](Sample sample) {
+    MeasuredMesh mesh(sample.mesh);
+    return !worth_of_leaving_out(mesh, 0);
+  };
+  EXPECT_FALSE(is_kept(roof(0.03)));
+  // The distance of the diagonals by the length of an edge, 2: above 0.2 from 0.4 on, where facets turn by 32 degrees.
+  EXPECT_FALSE(is_kept(roof(0.39)));
+  EXPECT_TRUE(is_kept(roof(0.42)));
+  // Two surfaces.
+  Sample two = roof(0.03);
+  for (PolyhedralMesh::Face& face : two.mesh.faces)
+    if (face.owner == 0 && !face.is_inner()) face.surface = static_cast<std::int32_t>(&face - two.mesh.faces.data());
+  EXPECT_TRUE(is_kept(two));
+  // Two regions.
+  Sample regions = roof(0.03);
+  regions.mesh.regions[1] = 1;
+  EXPECT_TRUE(is_kept(regions));
+  // The edge that would come has two facets already, below.
+  Sample layer;
+  layer.mesh.points = {{0, 0, 0.03}, {2, 0, 0},  {2, 2, 0.03},  {0, 2, 0},
+                       {0, 0, -1},   {2, 2, -1}, {1, -2, -0.5}, {4, 1, -0.5}};
+  layer.add<TetTopology>({0, 2, 1, 3});
+  layer.add<TetTopology>({0, 3, 1, 4});
+  layer.add<TetTopology>({1, 3, 2, 5});
+  // Each has another neighbour.
+  layer.add<TetTopology>({0, 4, 1, 6});
+  layer.add<TetTopology>({1, 5, 2, 7});
+  for (PolyhedralMesh::Face& face : layer.mesh.faces)
+    if (!face.is_inner()) face.surface = 0;
+  EXPECT_TRUE(is_kept(layer));
 }
 
 TEST(Polyhedra, AChangeThatIsTakenBackLeavesNothing) {
