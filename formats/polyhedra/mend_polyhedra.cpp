@@ -212,7 +212,7 @@ std::string summary(const MendCounts& counts) {
   std::string line;
   if (counts.changed())
     line = fmt::format(
-        "as OpenFOAM wants cells, {} are halved, {} cut, {} merged into {} polyhedra, {} left out "
+        "for OpenFOAM's checkMesh {} cells are halved, {} cut, {} merged into {} polyhedra, {} left out "
         "({:.4f} % of the volume), and {} vertices moved; hexes are "
         "{:.2f} % of the volume, {:.2f} before",
         counts.halved, counts.cut, counts.merged, counts.into, counts.left_out, 100 * counts.left_out_volume,

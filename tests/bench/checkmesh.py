@@ -73,7 +73,7 @@ def bench(model, args):
         subprocess.run(["bash", "-o", "pipefail", "-c", pipe], check=True)
         plain, _, before = ours(folder, "none")
         seconds, said, after = ours(folder, "mend")
-        changes = re.search(r"(\d+) are halved, (\d+) cut, (\d+) merged into (\d+) polyhedra, (\d+) left out \(([\d.]+) % of the volume\), and (\d+) vertices moved; hexes are ([\d.]+) % of the volume, ([\d.]+) before", said)
+        changes = re.search(r"(\d+) cells are halved, (\d+) cut, (\d+) merged into (\d+) polyhedra, (\d+) left out \(([\d.]+) % of the volume\), and (\d+) vertices moved; hexes are ([\d.]+) % of the volume, ([\d.]+) before", said)
         changes = changes.groups() if changes else ("0",) * 7 + ("100", "100")
         lost = float(changes[8]) - float(changes[7])
         cells = [f"{plain:.1f}", *before[1:], f"{seconds:.1f}", *after[1:], *changes[:7], f"{lost:.2f}"]

@@ -106,10 +106,10 @@ class Job {
     });
   }
 
-  // Where blocks are small and borders move by two edges, a rank that gives to others on all sides keeps a fourth of its
-  // vertices for a while, and has as much time as the others. On 12,500 vertices a rank, one edge gains 0.2 % of the
-  // weight; on 25,000 there is no difference. Under a limit of iterations, the result must not depend on the number of
-  // ranks.
+  // Where blocks are small and borders move by two edges, a rank that gives to others on all sides keeps a fourth of
+  // its vertices for a while, and has as much time as the others. On 12,500 vertices a rank, one edge gains 0.2 % of
+  // the weight; on 25,000 there is no difference. Under a limit of iterations, the result must not depend on the number
+  // of ranks.
   std::int32_t choose_overlap(const OwnedRows& rows) {
     constexpr std::int64_t few = 20000;  // vertices of a rank
     if (options_.overlap > 0) return options_.overlap;

@@ -15,8 +15,8 @@ struct LnsMpiOptions {
   RoundsOptions rounds;
   std::optional<double> target_gap;
   std::optional<std::int64_t> known_bound;
-  std::int32_t blocks = 0;  // of a graph that is read whole; 0: as many as its size asks for
-  std::int32_t overlap = 0;  // 0: as the size of the blocks and the kind of limit ask for
+  std::int32_t blocks = 0;           // of a graph that is read whole; 0: as many as its size asks for
+  std::int32_t overlap = 0;          // 0: as the size of the blocks and the kind of limit ask for
   std::int64_t passes = 0;           // of the dual, for a bound that is proven after the search; 0: no proof
   std::string certificate;           // a file for the proof; empty: no such file
   std::string fragments;             // a file for the improved fragments; empty: no such file
