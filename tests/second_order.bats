@@ -233,6 +233,21 @@ EVOL
   assert_near "$(value volume)" 2e-5 "$output"
 }
 
+@test "CalculiX opens a ring under pressure as Lamé says, with tied nodes, twenty times as exactly as at first order" {
+  optimized_only "it is about results"
+  command -v ccx >/dev/null || skip "calculix-ccx is not installed"
+  choice
+  local order
+  for order in 1 2; do
+    assemble choice.tar $([[ $order = 1 ]] || echo --order 2 --surface ring.stl) --solver calculix -q -o ring.inp
+    "$PYTHON" "$HEXPIPE_SOURCE/tests/checkers/lame_calculix.py" ring.inp >answer.json
+    "$PYTHON" -c "import json; print(json.load(open('answer.json'))['displacement'])" >order-$order
+  done
+  run grep -c '^\*NODE, NSET=NTIED' ring.inp
+  assert_output 1
+  assert [ "$(paste order-1 order-2 | awk '{ print ($1 < 0.04 && $2 < 0.0015 && $1 > 20 * $2) }')" = 1 ]
+}
+
 @test "inp needs no --solver for pyramids of second order" {
   choice
   run_apart assemble choice.tar --order 2 --surface ring.stl -o ring.inp

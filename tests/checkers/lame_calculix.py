@@ -35,11 +35,15 @@ def exact_stresses(points):
 
 
 def read_mesh(path):
-    nodes, used, elements, section, continues = {}, set(), 0, "", False
+    """Points by number, the nodes that elements have, the number of elements, and the sets that have all nodes."""
+    nodes, used, elements, section, continues, sets = {}, set(), 0, "", False, []
     with open(path) as file:
         for line in file:
             if line.startswith("*"):
                 section = line.split(",")[0].strip()
+                # Those that are tied to others (NTIED) are not in NALL.
+                if section == "*NODE" and "NSET=" in line:
+                    sets.append(line.split("NSET=")[1].strip())
             elif section == "*NODE":
                 number, *at = line.split(",")
                 nodes[int(number)] = [float(x) for x in at]
@@ -48,17 +52,19 @@ def read_mesh(path):
                 elements += not continues
                 used.update(numbers if continues else numbers[1:])
                 continues = line.rstrip().endswith(",")
-    return nodes, sorted(used), elements
+    return nodes, sorted(used), elements, sets
 
 
-def write_case(path):
+def write_case(path, node_sets):
     with open("case.inp", "w") as case:
         print("*INCLUDE, INPUT=" + path, file=case)
         print("*MATERIAL, NAME=STEEL\n*ELASTIC\n%r, %r" % (YOUNG, POISSON), file=case)
         print("*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n*BOUNDARY", file=case)
         print("x0, 1, 1, 0\ny0, 2, 2, 0\nbottom, 3, 3, 0\ntop, 3, 3, 0", file=case)
         print("*STEP\n*STATIC\n*DSLOAD\ninner, P, %r" % PRESSURE, file=case)
-        print("*NODE PRINT, NSET=NALL\nU\n*EL PRINT, ELSET=EALL\nS, COORD\n*END STEP", file=case)
+        for name in node_sets:
+            print("*NODE PRINT, NSET=%s\nU" % name, file=case)
+        print("*EL PRINT, ELSET=EALL\nS, COORD\n*END STEP", file=case)
 
 
 def read_answer():
@@ -82,8 +88,8 @@ def read_answer():
 
 
 def main():
-    nodes, used, elements = read_mesh(sys.argv[1])
-    write_case(sys.argv[1])
+    nodes, used, elements, node_sets = read_mesh(sys.argv[1])
+    write_case(sys.argv[1], node_sets)
     with open("ccx.log", "w") as log:
         subprocess.run(["ccx", "case"], stdout=log, stderr=log, check=True)
     displacements, stresses, places = read_answer()
