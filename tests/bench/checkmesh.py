@@ -90,7 +90,12 @@ def main():
     parser.add_argument("--alone", action="store_true", help="without snappyHexMesh")
     args = parser.parse_args()
     if shutil.which("checkMesh") is None:
-        sys.exit("checkMesh is not installed")
+        print("checkmesh.py: skipped, OpenFOAM's checkMesh is not there")
+        return
+    absent = [model for model in args.models if not os.path.exists(os.path.join(layers.MODELS, model))]
+    if absent:
+        print(f"checkmesh.py: skipped, {', '.join(absent)} not in {layers.MODELS}")
+        return
     titles = "seconds none severe hexes seconds mended severe hexes halved cut merged into out volume moved lost snappy severe hexes".split()
     print(f"{'model':16} " + " ".join(f"{title:>8}" for title in (titles[:-3] if args.alone else titles)))
     good = [bench(model, args) for model in args.models]
