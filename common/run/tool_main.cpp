@@ -104,8 +104,8 @@ void declare_mesh_output(CLI::App& app, Role product, MeshOptions& mesh) {
   outside_history(
       app.add_option(
           "--polyhedra", mesh.polyhedra,
-          "In a polyMesh, mend: where OpenFOAM's checkMesh finds fault, cells are halved or merge to polyhedra, and "
-          "vertices move; none: cells stay as they are [mend]"))
+          "In a polyMesh, mend: where OpenFOAM's checkMesh finds fault, cells are halved or merge to polyhedra, "
+          "vertices move, and flat cells at the boundary are left out; none: cells stay as they are [mend]"))
       ->type_name("HOW")
       ->check(CLI::IsMember(std::vector<std::string>{"mend", "none"}));
   outside_history(app.add_flag("--no-facets", mesh.no_facets,

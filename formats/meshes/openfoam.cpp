@@ -294,9 +294,8 @@ class PolyMesh {
     std::vector<std::vector<std::int32_t>> cells(region_names_.size());
     for (std::size_t cell = 0; cell < result_.regions.size(); ++cell)
       cells[static_cast<std::size_t>(result_.regions[cell])].push_back(static_cast<std::int32_t>(cell));
-    const auto zone_count = std::ranges::count_if(cells, [](const auto& list) { return !list.empty(); });
     Output& output = open("cellZones", "regIOobject");
-    output.print("{}\n(\n", zone_count);
+    output.print("{}\n(\n", cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i)
       output.print("{}\n{{\n    type cellZone;\n    cellLabels List<label>\n{}\n(\n{}\n)\n;\n}}\n", region_names_[i],
                    cells[i].size(), fmt::join(cells[i], "\n"));

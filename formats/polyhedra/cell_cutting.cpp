@@ -141,14 +141,8 @@ class Cutter {
     const auto corners = mesh_.mesh().corners_of(at);
     const std::vector<Vertex> loop(corners.begin(), corners.end());
     const auto place = [&](Vertex v) { return static_cast<std::size_t>(std::ranges::find(loop, v) - loop.begin()); };
-    const auto between = [&](std::size_t first, std::size_t last) {
-      std::vector<Vertex> half;
-      for (std::size_t i = first;; i = (i + 1) % loop.size()) {
-        half.push_back(loop[i]);
-        if (i == last) return half;
-      }
-    };
-    std::vector<Vertex> one = between(place(middle), place(end)), two = between(place(end), place(middle));
+    std::vector<Vertex> one = part_of_loop(loop, place(middle), place(end)),
+                        two = part_of_loop(loop, place(end), place(middle));
     if (std::ranges::find(one, kept) == one.end()) std::swap(one, two);
     mesh_.set_loop(face, one);
     mesh_.measure_face(face);

@@ -192,13 +192,9 @@ class Merger {
   }
 
   bool share_an_edge(std::int32_t one, std::int32_t two) const {
-    const auto a = mesh_.mesh().corners_of(mesh_.mesh().faces[one]),
-               b = mesh_.mesh().corners_of(mesh_.mesh().faces[two]);
-    for (std::size_t i = 0; i < a.size(); ++i)
-      for (std::size_t k = 0; k < b.size(); ++k) {
-        const Vertex from = a[i], to = a[(i + 1) % a.size()], p = b[k], q = b[(k + 1) % b.size()];
-        if ((from == p && to == q) || (from == q && to == p)) return true;
-      }
+    const auto corners = mesh_.mesh().corners_of(mesh_.mesh().faces[one]);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      if (has_edge(mesh_, two, corners[i], corners[(i + 1) % corners.size()])) return true;
     return false;
   }
 

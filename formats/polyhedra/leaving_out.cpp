@@ -96,10 +96,7 @@ class Leaver {
         // The outline goes round the facets, against these faces.
         if (!outline.contains({b, a}) && !is_inside([&](std::int32_t number) { return has_edge(mesh_, number, a, b); }))
           return false;
-        if (!rim.contains(a) && !is_inside([&](std::int32_t number) {
-              return std::ranges::find(mesh_.mesh().corners_of(at(number)), a) !=
-                     mesh_.mesh().corners_of(at(number)).end();
-            }))
+        if (!rim.contains(a) && !is_inside([&](std::int32_t number) { return has_corner(mesh_, number, a); }))
           return false;
       }
     return true;

@@ -48,6 +48,19 @@ std::vector<Vertex> loop_around(const std::vector<std::vector<Vertex>>& faces) {
   return loop.size() == count && count >= 3 ? loop : std::vector<Vertex>{};
 }
 
+std::vector<Vertex> part_of_loop(const std::vector<Vertex>& loop, std::size_t first, std::size_t last) {
+  std::vector<Vertex> part;
+  for (std::size_t i = first;; i = (i + 1) % loop.size()) {
+    part.push_back(loop[i]);
+    if (i == last) return part;
+  }
+}
+
+bool has_corner(const MeasuredMesh& mesh, std::int32_t face, Vertex vertex) {
+  const auto corners = mesh.mesh().corners_of(mesh.mesh().faces[face]);
+  return std::ranges::find(corners, vertex) != corners.end();
+}
+
 bool has_edge(const MeasuredMesh& mesh, std::int32_t face, Vertex a, Vertex b) {
   const auto corners = mesh.mesh().corners_of(mesh.mesh().faces[face]);
   for (std::size_t i = 0; i < corners.size(); ++i) {

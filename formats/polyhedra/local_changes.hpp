@@ -27,6 +27,10 @@ std::vector<Vertex> loop_from(const MeasuredMesh& mesh, std::int32_t face, std::
 // or one that passes a corner twice.
 std::vector<Vertex> loop_around(const std::vector<std::vector<Vertex>>& faces);
 
+// The corners of a loop from one place to another, both included.
+std::vector<Vertex> part_of_loop(const std::vector<Vertex>& loop, std::size_t first, std::size_t last);
+
+bool has_corner(const MeasuredMesh& mesh, std::int32_t face, Vertex vertex);
 bool has_edge(const MeasuredMesh& mesh, std::int32_t face, Vertex a, Vertex b);
 
 // The cell, and those that are joined to it by faces for which holds(face).
@@ -67,12 +71,12 @@ class Hexes {
     for (const std::int32_t cell : cells)
       if (mesh.mesh().is_hex[cell] != 0) hexes_.emplace_back(cell, mesh.volume(cell));
   }
-  // How many are hexes no more, and their volume.
-  std::pair<std::int64_t, double> lost(const MeasuredMesh& mesh) const {
-    std::pair<std::int64_t, double> result{0, 0};
+  // The volume of those that are hexes no more.
+  double volume_lost(const MeasuredMesh& mesh) const {
+    double lost = 0;
     for (const auto& [cell, volume] : hexes_)
-      if (!mesh.is_alive(cell) || mesh.mesh().is_hex[cell] == 0) ++result.first, result.second += volume;
-    return result;
+      if (!mesh.is_alive(cell) || mesh.mesh().is_hex[cell] == 0) lost += volume;
+    return lost;
   }
 
  private:
@@ -94,7 +98,7 @@ std::optional<Worth> worth_of_change(MeasuredMesh& mesh, const CellSet& cells, C
       all.push_back(cell), made.push_back(cell);
     const RefusalCount after = count_refusals(mesh, all);
     result = {.refused = after.wrong - before.wrong,
-              .hex_volume = hexes.lost(mesh).second,
+              .hex_volume = hexes.volume_lost(mesh),
               .severe = after.severe - before.severe,
               .own = count_refusals(mesh, made).wrong};
   }

@@ -8,6 +8,7 @@
 
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/vertex_items.hpp"
+#include "formats/polyhedra/local_changes.hpp"
 #include "formats/polyhedra/mend_polyhedra.hpp"
 
 namespace hexpipe::polyhedra {
@@ -339,14 +340,7 @@ class Splitter {
     if (halved > 0)
       for (const std::int32_t cell : {face.owner, face.neighbour})
         if (cell != no_index && column_of(cell) == nullptr) whole_.insert(cell);
-    const auto between = [&](std::size_t from, std::size_t to) {
-      std::vector<Vertex> half;
-      for (std::size_t i = from;; i = (i + 1) % loop.size()) {
-        half.push_back(loop[i]);
-        if (i == to) return half;
-      }
-    };
-    const std::vector<Vertex> first = cuts.size() == 2 ? between(cuts[0], cuts[1]) : loop;
+    const std::vector<Vertex> first = cuts.size() == 2 ? part_of_loop(loop, cuts[0], cuts[1]) : loop;
     const Vertex corner = first[cuts.size() == 2 ? 1 : 0];
     if (halved > 0) {
       mesh_.set_loop(number, first);
@@ -357,7 +351,7 @@ class Splitter {
     if (one != nullptr) more_faces_[owner].push_back(number);
     if (two != nullptr) more_faces_[neighbour].push_back(number);
     if (cuts.size() != 2) return;
-    const std::vector<Vertex> second = between(cuts[1], cuts[0]);
+    const std::vector<Vertex> second = part_of_loop(loop, cuts[1], cuts[0]);
     const std::int32_t owner_of_second = half_of(face.owner, second[1]),
                        neighbour_of_second = half_of(face.neighbour, second[1]);
     const std::int32_t other = mesh_.add_face(second, owner_of_second, neighbour_of_second, face.surface, face.flipped);

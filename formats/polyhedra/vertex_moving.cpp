@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -17,20 +18,10 @@ constexpr double longest_on_curved = 0.1;  // where it leaves the facets of the 
 class Mover {
  public:
   Mover(MeasuredMesh& mesh, std::int32_t cell, Vertex vertex) : mesh_(mesh), cell_(cell), vertex_(vertex) {
-    std::vector<std::int32_t> next{cell};
-    while (!next.empty()) {
-      const std::int32_t at = next.back();
-      next.pop_back();
-      if (contains(cells_, at)) continue;
-      cells_.insert(std::ranges::upper_bound(cells_, at), at);
-      for (const std::int32_t number : mesh_.faces_of(at)) {
-        const PolyhedralMesh::Face& face = mesh_.mesh().faces[number];
-        const auto corners = mesh_.mesh().corners_of(face);
-        if (std::ranges::find(corners, vertex) == corners.end()) continue;
-        faces_.insert(number);
-        if (face.is_inner()) next.push_back(face.other_cell(at));
-      }
-    }
+    const auto has_vertex = [&](std::int32_t face) { return has_corner(mesh, face, vertex); };
+    cells_ = cells_joined_by(mesh, cell, has_vertex);
+    for (const std::int32_t one : cells_)
+      std::ranges::copy_if(mesh.faces_of(one), std::inserter(faces_, faces_.end()), has_vertex);
     find_limits();
   }
 
@@ -40,9 +31,10 @@ class Mover {
     const CellSet around = with_neighbours(mesh_, cells_);
     const Vec3 start = mesh_.mesh().points[vertex_];
     const double unit_length = shortest_edge();
+    const std::vector<Vec3> all = ways();
     for (const double length : lengths) {
       if (length > longest_) break;
-      for (const Vec3& way : ways()) {
+      for (const Vec3& way : all) {
         Move move{.cell = cell_, .vertex = vertex_, .place = start + way * (length * unit_length), .length = length};
         if (trouble_at(move.place, start) > 0) continue;
         const auto worth = worth_of_change(mesh_, around, {cell_}, [&] { return make(move.place); });
@@ -171,14 +163,18 @@ class Mover {
   double longest_ = lengths.back();
 };
 
-}  // namespace
-
-std::optional<Move> best_move(MeasuredMesh& mesh, std::int32_t cell) {
+std::set<Vertex> vertices_of(const MeasuredMesh& mesh, std::int32_t cell) {
   std::set<Vertex> vertices;
   for (const std::int32_t face : mesh.faces_of(cell))
     for (const Vertex v : mesh.mesh().corners_of(mesh.mesh().faces[face])) vertices.insert(v);
+  return vertices;
+}
+
+}  // namespace
+
+std::optional<Move> best_move(MeasuredMesh& mesh, std::int32_t cell) {
   std::optional<Move> found;
-  for (const Vertex vertex : vertices) {
+  for (const Vertex vertex : vertices_of(mesh, cell)) {
     const auto move = Mover(mesh, cell, vertex).best();
     if (move && (!found || std::tie(move->worth, move->length) < std::tie(found->worth, found->length))) found = move;
   }
@@ -195,11 +191,8 @@ std::int64_t climb(MeasuredMesh& mesh, std::int32_t cell, std::int64_t refused_b
   std::int64_t refused = refused_before;
   double trouble = mesh.trouble(cell);
   for (int step = 0; step < effort.steps && trouble > 0; ++step) {
-    std::set<Vertex> vertices;
-    for (const std::int32_t face : mesh.faces_of(cell))
-      for (const Vertex v : mesh.mesh().corners_of(mesh.mesh().faces[face])) vertices.insert(v);
     std::vector<Step> steps;
-    for (const Vertex vertex : vertices)
+    for (const Vertex vertex : vertices_of(mesh, cell))
       Mover(mesh, cell, vertex).for_each_place([&](const Vec3& place, double there) {
         if (there < 0.95 * trouble) steps.push_back({there, vertex, place});
       });

@@ -54,11 +54,7 @@ def ours(folder, how):
 def snappy(folder, surface, size):
     case = f"{folder}/snappy"
     make_case(case)
-    os.makedirs(f"{case}/constant/triSurface", exist_ok=True)
-    import meshio
-    mesh = meshio.read(surface)
-    meshio.write_points_cells(f"{case}/constant/triSurface/part.stl", mesh.points, {"triangle": mesh.cells_dict["triangle"]})
-    box = mesh.points.min(0) - 1.5 * size, mesh.points.max(0) + 1.5 * size
+    box = openfoam.put_surface(case, surface, size)
     subprocess.run([layers.tool("assemble"), "-q", f"{folder}/part.tar", "-o", f"{folder}/plain.vtu"], check=True)
     added = openfoam.snappy(case, box, size, layers.inner_point(folder, size), "none", 0, size / 10, 1.2)[0]
     return ["failed"] * 3 if added is None else checked(case)[1:]
@@ -86,7 +82,7 @@ def bench(model, args):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--size", choices=("middle", "fine"), default="middle")
-    parser.add_argument("--models", nargs="*", default=list(SIZES))
+    parser.add_argument("--models", nargs="*", choices=list(SIZES), default=list(SIZES))
     parser.add_argument("--alone", action="store_true", help="without snappyHexMesh")
     args = parser.parse_args()
     if shutil.which("checkMesh") is None:

@@ -82,11 +82,7 @@ def snappy(folder, surface, size, args, first):
     """The share of the layers' cells that snappyHexMesh adds, its share of the height, and checkMesh's findings."""
     case = f"{folder}/snappy"
     make_case(case)
-    os.makedirs(f"{case}/constant/triSurface", exist_ok=True)
-    import meshio
-    mesh = meshio.read(surface)
-    meshio.write_points_cells(f"{case}/constant/triSurface/part.stl", mesh.points, {"triangle": mesh.cells_dict["triangle"]})
-    box = mesh.points.min(0) - 1.5 * size, mesh.points.max(0) + 1.5 * size
+    box = openfoam.put_surface(case, surface, size)
     cells, height, seconds = openfoam.snappy(case, box, size, inner_point(folder, size), "part", args.layers, first, args.growth)
     if cells is None:
         return ["failed", "", f"{seconds:.0f}", *[""] * 4]
@@ -147,7 +143,7 @@ def bench(model, args):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--models", nargs="*", default=list(SIZES))
+    parser.add_argument("--models", nargs="*", choices=list(SIZES), default=list(SIZES))
     parser.add_argument("--layers", type=int, default=5)
     parser.add_argument("--share", type=float, default=0.5, help="of the size, by all layers together")
     parser.add_argument("--growth", type=float, default=1.2)

@@ -68,6 +68,15 @@ def findings(text):
     return ("ok" if not failed else f"{len(failed)} failed", severe[1] if severe else "0", angle[1][:4] if angle else "")
 
 
+def put_surface(case, surface, size):
+    """The surface as snappy() looks for it. Returns the corners of a box around it, a size and a half away."""
+    import meshio
+    mesh = meshio.read(surface)
+    os.makedirs(f"{case}/constant/triSurface", exist_ok=True)
+    meshio.write_points_cells(f"{case}/constant/triSurface/part.stl", mesh.points, {"triangle": mesh.cells_dict["triangle"]})
+    return mesh.points.min(0) - 1.5 * size, mesh.points.max(0) + 1.5 * size
+
+
 def snappy(case, box, size, inside, patch, layers, first, growth):
     """Runs snappyHexMesh on constant/triSurface/part.stl in cubes of `size` in the box (two corners), with layers on the
     patches that match `patch`. The share of the layers' cells that it adds, that of their height, both in percent, and
