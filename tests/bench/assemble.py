@@ -25,15 +25,11 @@ from scipy.spatial import Delaunay
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BIN = os.environ.get("HEXPIPE_BIN", os.path.join(ROOT, "build", "bin"))
 sys.path.insert(0, os.path.join(ROOT, "tests", "checkers"))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 POISSON = os.path.join(ROOT, "tests", "checkers", "poisson_getfem.py")
 import meshstats  # noqa: E402
-import surfcheck  # noqa: E402
+from model_sizes import LEVELS, MODELS, size_of_assemble  # noqa: E402
 
-# Edge lengths as in the models' README: for the MAMBO models, otherwise shares of the longest side of the bounding box.
-SIZES = {"mambo-s1.stl": (5.2, 3.3, 2.3), "mambo-s22.stl": (5.2, 3.3, 2.3), "mambo-s27.stl": (3.2, 2.05, 1.42),
-         "mambo-m1.stl": (5.1, 3.2, 2.2), "mambo-m6.stl": (3.2, 2.1, 1.45)}
-PARTS = (16, 28, 40)
-LEVELS = ("coarse", "middle", "fine")
 NEVER = ("facets_of_three_cells", "twisted_quads", "quads_against_triangles", "open_quads", "inverted_cells",
          "invalid_hexes", "odd_boundary_edges", "duplicate_cells", "unused_points", "negative_volumes")
 # Scaled Jacobians after smoothing, and points of volume lost to conformity.
@@ -65,10 +61,7 @@ def broken(found):
 
 def make_solution(path, level):
     """solution.tar in the working folder; returns the edge length."""
-    name = os.path.basename(path)
-    points, _ = surfcheck.read(path)
-    longest = float((points.max(axis=0) - points.min(axis=0)).max())
-    size = SIZES.get(name, [longest / part for part in PARTS])[level]
+    size = size_of_assemble(path, level)
     tool("tetmesh", path, "--size", size, "-q", "-o", "mesh.tar")
     tool("findhex", "mesh.tar", "-o", "candidates.tar", "--format", "tar")
     tool("buildgraph", "candidates.tar", "-o", "graph.tar", "--format", "tar")
@@ -182,7 +175,7 @@ def bench_million():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--models", default=os.path.join(ROOT, "..", "shared", "models"))
+    parser.add_argument("--models", default=MODELS)
     parser.add_argument("--size", choices=LEVELS, default="coarse")
     parser.add_argument("--seeds", type=int, default=200)
     parser.add_argument("--first", type=int, default=0)

@@ -17,13 +17,9 @@ import tempfile
 
 import layers
 import openfoam
+from model_sizes import LEVELS, MODELS, ROUNDED
 from openfoam import make_case, run
 
-SIZES = {  # middle, fine
-    "bridge.stl": (0.3571, 0.25), "mambo-m1.stl": (3.2, 2.2), "mambo-m6.stl": (2.1, 1.45), "mambo-s1.stl": (3.3, 2.3),
-    "mambo-s22.stl": (3.857, 2.7), "mambo-s27.stl": (2.05, 1.42), "notch.stl": (0.03571, 0.025), "plate-holes.stl": (10.89, 7.623),
-    "simp.stl": (6.786, 4.75), "spot.obj": (0.06135, 0.04295), "blub.off": (0.1039, 0.07273),
-}
 FAILURES = {"small determinant": "det", "Concave cells": "concave", "face tets": "tets", "interpolation weight": "weight",
             "volume ratio": "ratio", "non-orthogonality errors": "angle", "skew": "skew", "face pyramids": "pyramids"}
 
@@ -61,8 +57,8 @@ def snappy(folder, surface, size):
 
 
 def bench(model, args):
-    size = SIZES[model][("middle", "fine").index(args.size)]
-    surface = os.path.join(layers.MODELS, model)
+    size = ROUNDED[model][LEVELS[1:].index(args.size)]
+    surface = os.path.join(MODELS, model)
     with tempfile.TemporaryDirectory() as folder:
         pipe = " | ".join([f"{layers.tool('tetmesh')} -q {surface} --size {size}", *(f"{layers.tool(name)} -q" for name in ("findhex", "buildgraph", "initsol")),
                            f"{layers.tool('lns')} -q -o {folder}/part.tar"])
@@ -81,16 +77,16 @@ def bench(model, args):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--size", choices=("middle", "fine"), default="middle")
-    parser.add_argument("--models", nargs="*", choices=list(SIZES), default=list(SIZES))
+    parser.add_argument("--size", choices=LEVELS[1:], default="middle")
+    parser.add_argument("--models", nargs="*", choices=list(ROUNDED), default=list(ROUNDED))
     parser.add_argument("--alone", action="store_true", help="without snappyHexMesh")
     args = parser.parse_args()
     if shutil.which("checkMesh") is None:
         print("checkmesh.py: skipped, OpenFOAM's checkMesh is not there")
         return
-    absent = [model for model in args.models if not os.path.exists(os.path.join(layers.MODELS, model))]
+    absent = [model for model in args.models if not os.path.exists(os.path.join(MODELS, model))]
     if absent:
-        print(f"checkmesh.py: skipped, {', '.join(absent)} not in {layers.MODELS}")
+        print(f"checkmesh.py: skipped, {', '.join(absent)} not in {MODELS}")
         return
     titles = "seconds none severe hexes seconds mended severe hexes halved cut merged into out volume moved lost snappy severe hexes".split()
     print(f"{'model':16} " + " ".join(f"{title:>8}" for title in (titles[:-3] if args.alone else titles)))

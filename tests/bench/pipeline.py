@@ -13,32 +13,12 @@ import sys
 import tempfile
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-MODELS = os.path.join(ROOT, "..", "shared", "models")
+from model_sizes import LEVELS, MODELS, ROOT, size_of
+
 BIN = os.environ.get("HEXPIPE_BIN", os.path.join(ROOT, "build", "bin"))
 STAGES = ("tetmesh", "findhex", "buildgraph", "initsol", "lns", "assemble")
 
-# Coarse, middle and fine edge lengths; a fraction is one of the longest side of the bounding box.
-FRACTIONS = (1 / 16, 1 / 28, 1 / 40)
-SIZES = {
-    "mambo-s1.stl": (5.2, 3.3, 2.3), "mambo-s27.stl": (3.2, 2.05, 1.42), "mambo-m1.stl": (5.1, 3.2, 2.2),
-    "mambo-m6.stl": (3.2, 2.1, 1.45),
-}
 DEFAULT_MODELS = ("notch.stl", "simp.stl", "mambo-s1.stl", "mambo-s27.stl", "mambo-m1.stl")
-
-
-def longest_side(path):
-    sys.path.insert(0, os.path.join(ROOT, "tests", "checkers"))
-    import surfcheck
-    points, _ = surfcheck.read(path)
-    return float((points.max(axis=0) - points.min(axis=0)).max())
-
-
-def size_of(path, level):
-    name = os.path.basename(path)
-    if name in SIZES:
-        return SIZES[name][level]
-    return longest_side(path) * FRACTIONS[level]
 
 
 def run(command):
@@ -90,7 +70,7 @@ def print_tables(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="*")
-    parser.add_argument("--size", choices=("coarse", "middle", "fine"), default="middle")
+    parser.add_argument("--size", choices=LEVELS, default="middle")
     parser.add_argument("--time-limit", type=float, default=20, help="seconds of lns")
     parser.add_argument("--start-time", type=float, default=10, help="seconds of initsol")
     parser.add_argument("--threads", type=int, default=1)
@@ -100,7 +80,7 @@ def main():
     if missing:
         print(f"skipped: {missing[0]} is not there")
         return
-    level = ("coarse", "middle", "fine").index(options.size)
+    level = LEVELS.index(options.size)
     with tempfile.TemporaryDirectory() as folder:
         print_tables([measure(path, level, options, folder) for path in models])
 

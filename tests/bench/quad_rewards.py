@@ -15,9 +15,9 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import model_sizes  # noqa: E402
 import pipeline  # noqa: E402
 
-LEVELS = {"coarse": 0, "middle": 1, "fine": 2}
 COLUMNS = ("model", "size", "reward", "buildgraph", "initsol", "lns", "assemble", "volume %", "number %", "hexes", "prisms",
            "pyramids", "tets", "least hex", "mean hex", "least other", "open before merging")
 
@@ -42,7 +42,7 @@ def measure(folder, candidates, reward, options):
     seconds["assemble"] = processor_seconds("assemble", choice, "-o", path["mesh.vtu"], "--stats", path["stats.json"])
     with open(path["stats.json"]) as file:
         stats = json.load(file)
-    check = subprocess.run([os.path.join(pipeline.ROOT, "tests", "checkers", "meshstats.py"), "--json", "--exact", path["mesh.vtu"]],
+    check = subprocess.run([os.path.join(model_sizes.ROOT, "tests", "checkers", "meshstats.py"), "--json", "--exact", path["mesh.vtu"]],
                            check=True, capture_output=True, text=True)
     mesh = json.loads(check.stdout)
     if not mesh["is_conforming"] or mesh["invalid_hexes"] or mesh["inverted_cells"]:
@@ -69,13 +69,13 @@ def main():
     parser.add_argument("--weight", default="quality")
     parser.add_argument("--sizes", default="coarse,middle")
     parser.add_argument("--no-lns", dest="lns", action="store_false")
-    parser.add_argument("--models", dest="folder", default=pipeline.MODELS)
+    parser.add_argument("--models", dest="folder", default=model_sizes.MODELS)
     options = parser.parse_args()
     print("| " + " | ".join(COLUMNS) + " |\n|" + "---|" * len(COLUMNS), flush=True)
     for model in options.models:
         source = model if os.path.exists(model) else os.path.join(options.folder, model)
         for level in options.sizes.split(","):
-            size = pipeline.size_of(source, LEVELS[level])
+            size = model_sizes.size_of(source, model_sizes.LEVELS.index(level))
             with tempfile.TemporaryDirectory() as folder:
                 mesh, candidates = os.path.join(folder, "mesh.tar"), os.path.join(folder, "candidates.tar")
                 processor_seconds("tetmesh", source, "--size", repr(size), "-o", mesh)

@@ -18,28 +18,15 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-sys.path.insert(0, os.path.join(ROOT, "tests", "checkers"))
-MODELS = os.path.join(ROOT, "..", "shared", "models")
+sys.path.insert(0, os.path.join(ROOT, "tests", "bench"))
+from model_sizes import LEVELS, MODELS, name_of, size_of  # noqa: E402
 BIN = os.environ.get("HEXPIPE_BIN", os.path.join(ROOT, "build", "bin"))
 
-LEVELS = ("coarse", "middle", "fine")
-# Edge lengths by level; for other models a part of the longest side of the bounding box.
-SIZES = {"mambo-s1": (5.2, 3.3, 2.3), "mambo-s27": (3.2, 2.05, 1.42), "mambo-m1": (5.1, 3.2, 2.2), "mambo-m6": (3.2, 2.1, 1.45)}
-FRACTIONS = (1 / 16, 1 / 28, 1 / 40)
 # Gmsh 4.13.1 from the CAD originals, its frame-field points: percent of the volume in hexes.
 GMSH = {"mambo-s1": (77.8, 89.9, 92.7), "mambo-s27": (71.8, 84.8, 86.5), "mambo-m1": (74.7, 79.9, 85.5), "mambo-m6": (None, None, 94.5)}
 FILES = ("simp.stl", "plate-holes.stl", "blub.off", "spot.obj", "bridge.stl", "notch.stl", "mambo-s1.stl", "mambo-s22.stl",
          "mambo-s27.stl", "mambo-m1.stl", "mambo-m6.stl")
 KINDS = ("keep+lattice", "remesh+lattice", "remesh+frame", "remesh+best", "remesh+best+improve")
-
-
-def size_of(path, level):
-    name = os.path.basename(path).rsplit(".", 1)[0]
-    if name in SIZES:
-        return SIZES[name][level]
-    import surfcheck
-    points, _ = surfcheck.read(path)
-    return float((points.max(axis=0) - points.min(axis=0)).max()) * FRACTIONS[level]
 
 
 def tool(name, folder, *arguments):
@@ -65,7 +52,7 @@ def share(folder, solution):
 
 def measure(path, level, kind, options):
     surface, points, *improve = kind.split("+")
-    name = os.path.basename(path).rsplit(".", 1)[0]
+    name = name_of(path)
     improving = ["--improve", "1000000", "--time-limit", str(options.seconds)] if improve else ["--threads", "1"]
     with tempfile.TemporaryDirectory() as folder:
         files = {stage: os.path.join(folder, stage + ".tar") for stage in ("mesh", "candidates", "graph", "greedy", "start", "best")}
