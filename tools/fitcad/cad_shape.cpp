@@ -33,8 +33,8 @@
 namespace hexpipe::fitcad {
 namespace {
 
-// Curves this share of the reach further away than the nearest one may turn out to be nearer: their segments are
-// chords.
+// Segments are chords of their curves. So a curve may be the nearest one though its segments are further away than
+// those of another, by up to this share of the reach.
 constexpr double curve_slack = 0.2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -195,7 +195,7 @@ void CadShape::State::add_edge(std::int32_t number, const TopoDS_Edge& edge, con
     corners.push_back(vec3_of(BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current())).XYZ()));
 }
 
-// Each face that is near enough, with the nearest of its triangles.
+// Each face that counts for CadShape::on_faces(), with the nearest of its triangles.
 std::vector<std::pair<std::int32_t, std::int32_t>> CadShape::State::faces_near(
     const Vec3& to, double reach, std::span<const std::int32_t> tags) const {
   const double nearest = triangle_tree->distance(to, infinity);
@@ -226,7 +226,7 @@ Foot CadShape::State::foot_on_edge(const EdgeSegment& of, const Simplex& simplex
   return {at, norm(to - at)};
 }
 
-// Among the edges that are up to `slack` further away than the nearest one: their segments are only near to them.
+// The nearest point of the edges whose segments are at most `slack` further away than the nearest one.
 std::optional<Foot> CadShape::State::nearest_foot(const EdgeSegments& of, const SimplexTree& tree, const Vec3& to,
                                                   double slack) const {
   if (tree.empty()) return std::nullopt;
@@ -246,7 +246,7 @@ CadShape::CadShape(const pipeline::ExactShape& shape, const std::string& source)
 CadShape::~CadShape() = default;
 CadShape::CadShape(CadShape&&) noexcept = default;
 
-// The shape's own unit inside, the bundle's outside.
+// Arguments and results are in the unit of the mesh, `State` is in that of the CAD.
 Foot CadShape::on_faces(const Vec3& to, double reach, std::span<const std::int32_t> tags) const {
   const State& s = *state_;
   const Vec3 p = s.unit * to;
@@ -260,7 +260,7 @@ Foot CadShape::on_faces(const Vec3& to, double reach, std::span<const std::int32
     if (inside && foot.distance >= inside->distance) continue;
     if (near.size() == 1 || s.faces[face].contains(parameters)) inside = foot;
   }
-  // Beyond the border of each face that is near: the nearest point is on an edge.
+  // The nearest points of all these surfaces are beyond the borders of their faces, so the nearest one is on an edge.
   if (!inside) inside = s.nearest_foot(s.edges, *s.edge_tree, p, s.unit * reach);
   Foot result = inside.value_or(any);
   result.at *= 1 / s.unit;

@@ -1,8 +1,8 @@
 #pragma once
-// The CAD's own faces and curves, and the point of them that is nearest to a given one.
+// The CAD's own faces and curves, and the points of them that are nearest to a given one.
 //
-// The triangles that tessellate made of each face lead to the place; Newton's method on the face itself finds the point
-// to the last digit.
+// The triangles that tessellate made of each face give a start; Newton's method on the face itself finds the point to
+// the last digits. All points and lengths are in the unit of the mesh.
 
 #include <cstdint>
 #include <memory>
@@ -24,24 +24,26 @@ struct Foot {
 
 class CadShape {
  public:
-  // Throws DataError if OpenCASCADE cannot read the shape, or its tags do not fit to it.
+  // `source` is what messages call the file. Throws DataError if OpenCASCADE cannot read the shape, or if the lists of
+  // tags do not match its faces and curves.
   CadShape(const pipeline::ExactShape& shape, const std::string& source);
   ~CadShape();
   CadShape(CadShape&&) noexcept;
 
-  // The nearest point of the faces, among those that lie up to `reach` further away than the nearest triangle. With
-  // tags, faces that have one of them go before all others.
+  // The nearest point of the faces. Only faces count whose triangles are at most `reach` further away than the nearest
+  // one. If some of these have one of the tags, the others do not count.
   Foot on_faces(const Vec3& to, double reach, std::span<const std::int32_t> tags = {}) const;
-  // The nearest point of the curves that are features, if it is up to `reach` away.
+  // The nearest point of the curves that are features (as tessellate marks them); nullopt if it is more than `reach`
+  // away.
   std::optional<Foot> on_curves(const Vec3& to, double reach) const;
-  // The nearest end of such a curve, if it is up to `reach` away.
+  // The nearest end of such a curve; nullopt if it is more than `reach` away.
   std::optional<Vec3> on_corners(const Vec3& to, double reach) const;
 
-  // Points that lie on the faces exactly and all over them.
+  // Points on the faces, exactly and all over them: the vertices of all triangles, and a point for each triangle.
   std::vector<Vec3> samples() const;
 
   std::size_t face_count() const;
-  double diagonal() const;
+  double diagonal() const;  // of the bounding box
 
  private:
   struct State;

@@ -31,7 +31,7 @@ Vec3 middle_of(const std::vector<Vec3>& points) {
   return (1.0 / static_cast<double>(points.size())) * sum;
 }
 
-// A quad is bilinear: four triangles around its middle are near enough to it.
+// The facets as triangles. A quad is bilinear; four triangles around its middle come near enough.
 std::vector<Simplex> simplices_of_boundary(const MixedMesh& mesh) {
   std::vector<Simplex> simplices;
   for_each_facet(mesh, [&](const std::vector<Vec3>& points) {
@@ -46,7 +46,7 @@ std::vector<Simplex> simplices_of_boundary(const MixedMesh& mesh) {
   return simplices;
 }
 
-// From a vertex to the corner, the curve or the faces on which its target is.
+// The distance of a vertex from the corner, the curve or the faces on which its target is.
 double distance_to_place(const MixedMesh& mesh, const CadShape& shape, const Targets& targets, Vertex v) {
   const Vec3& p = mesh.points[v];
   return p == targets.of[v].at ? 0 : norm(p - targets.slid(shape, v, p));
@@ -71,7 +71,7 @@ BoundaryDistances distances(const MixedMesh& mesh, const CadShape& shape, const 
   return result;
 }
 
-// Computes the quality of every cell, and sums it up.
+// Computes and stores the quality of every cell of a kind, and sums it up.
 template <int N>
 KindQuality measure(const MixedMesh& mesh, CellBlock<N>& block, CellKind kind) {
   KindQuality result{kind, static_cast<std::int64_t>(block.size())};

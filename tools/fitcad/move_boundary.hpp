@@ -1,5 +1,5 @@
 #pragma once
-// Moves vertices of the boundary to their targets. No cell becomes invalid, and none poorer than it is allowed to.
+// Moves vertices of the boundary to their targets. No cell becomes invalid or poorer than it may be.
 
 #include <cstdint>
 
@@ -15,9 +15,9 @@ struct MoveCounts {
   std::int64_t held = 0;    // vertices of the boundary that could not go all the way
 };
 
-// A cell that is better than good enough (hexes least_hex_quality, others good_enough) stays so, and a poorer one loses at
-// most a tenth of its quality. Where that holds vertices back, cells other than hexes may lose half of it, down to
-// 0.02. Targets of vertices that slid become those of their new places.
+// Qualities are scaled Jacobians. A hex above least_hex_quality and another cell above good_enough stay above it; a
+// poorer cell loses at most a tenth of its quality. Where this holds vertices back, cells other than hexes may lose
+// half of their quality, down to 0.02. Changes points of the mesh, and the targets of vertices that slide.
 MoveCounts move_boundary(MixedMesh& mesh, const CadShape& shape, Targets& targets);
 
 }  // namespace hexpipe::fitcad

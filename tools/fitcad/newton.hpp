@@ -1,5 +1,6 @@
 #pragma once
-// The point of a surface or of a curve that is nearest to a given one, found downhill from a start.
+// The point of a surface or of a curve that is nearest to a given one, by Newton's method from a start. Lengths are in
+// the unit of the CAD.
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
@@ -15,14 +16,15 @@ inline Vec3 vec3_of(const gp_XYZ& p) {
 }
 
 struct SurfacePlace {
-  std::array<double, 2> parameters;
+  std::array<double, 2> parameters;  // u and v
   Vec3 at;
 };
 
-// Parameters stay within the surface's own bounds, unless it is periodic there.
+// A local minimum of the distance, near the start. Parameters stay within the surface's own bounds, unless it is
+// periodic in that direction; the borders of a face on it do not count.
 SurfacePlace nearest_on_surface(const BRepAdaptor_Surface& surface, const std::array<double, 2>& start, const Vec3& to);
 
-// The curve's ends bound it.
+// The same for a curve, between its ends.
 Vec3 nearest_on_curve(const BRepAdaptor_Curve& curve, double start, const Vec3& to);
 
 }  // namespace hexpipe::fitcad

@@ -8,18 +8,20 @@
 namespace hexpipe::fitcad {
 namespace {
 
-// tetmesh and assemble leave vertices where curves of the CAD end or meet in their place, to rounding.
-constexpr double corner_reach = 1e-3;  // of the length of an edge
-// An edge of the mesh is one along a curve if its ends are this near to one, and its middle as near as a chord may be:
-// all curves that are features are edges of the mesh.
+// Distances by the length of an edge, or by the mean length of the edges at a vertex.
+//
+// tetmesh and assemble do not move vertices at the ends of the CAD's curves, but for rounding.
+constexpr double corner_reach = 1e-3;
+// An edge of the mesh lies along a curve if its ends are this near to one, and its middle as near as the middle of a
+// chord may be. All curves that are features are edges of the mesh.
 constexpr double end_reach = 0.04, middle_reach = 0.2;
-// Faces this much further away than the nearest one may turn out to be nearer.
+// A face may be the nearest one though its triangles are further away than those of another, by up to this much.
 constexpr double face_reach = 0.1;
 
-// Vertices this near to their places, in diagonals, are there: flat faces stay flat to the last bit.
+// By the diagonal: a vertex this near to its place does not move, so flat faces stay flat to the last bit.
 constexpr double rounding = 1e-12;
 
-// The facets at an edge of the boundary, and what follows from them.
+// What the facets at an edge of the boundary say of it.
 struct BoundaryEdge {
   std::int32_t facets = 0;
   std::int32_t tag = 0;

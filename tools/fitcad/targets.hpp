@@ -9,25 +9,26 @@
 
 namespace hexpipe::fitcad {
 
-enum class Place : std::uint8_t { inside, face, curve, corner };
+enum class Place : std::uint8_t { inside, face, curve, corner };  // inside: the vertex is not on the boundary
 
 struct Target {
   Place place = Place::inside;
-  Vec3 at;
+  Vec3 at;  // where the vertex is to go; without meaning inside
 };
 
-// Vertices belong no further away than `reach` of the mean length of their facets' edges: a target that is further away
-// is some other part of the CAD, and such a vertex belongs where it is, on `strays`.
 struct Targets {
-  std::vector<Target> of;  // by vertex
-  std::vector<Vertex> strays;
+  std::vector<Target> of;                       // by vertex
+  std::vector<Vertex> strays;                   // vertices whose target is too far away; they stay where they are
   std::vector<double> lengths;                  // by vertex: the mean length of the edges of its facets
   std::vector<std::vector<std::int32_t>> tags;  // by vertex: those of its facets
 
-  // The point near `to` that is on the same curve, or on the same faces, as the vertex's target. A corner stays.
+  // Where a vertex goes on the CAD if it slides towards `to`: the nearest point of the curves, or of the faces with its
+  // tags. A vertex with a corner as its target does not slide.
   Vec3 slid(const CadShape& shape, Vertex v, const Vec3& to) const;
 };
 
+// A vertex whose target would be further away than `reach` times its length becomes a stray: what is found there is
+// some other part of the CAD.
 Targets find_targets(const MixedMesh& mesh, const CadShape& shape, double reach);
 
 }  // namespace hexpipe::fitcad

@@ -1,5 +1,7 @@
 #pragma once
-// Keeps what a block's search has learnt of the places that it tried, from one round to the next.
+// What the search of a block remembers from one round to the next: how often it tried each chosen vertex, how large
+// fragments have become there, and how well its operators did. Vertices are known by their keys, the numbers that do
+// not depend on the rank.
 
 #include <array>
 #include <cstdint>
@@ -15,6 +17,7 @@ namespace hexpipe::lns_mpi {
 
 class BlockMemory {
  public:
+  // LnsMemory::Place, with the vertex's key.
   struct Place {
     std::uint64_t key;
     std::array<std::uint32_t, mwis::local_search::all_operators.size()> tries;
@@ -25,23 +28,25 @@ class BlockMemory {
   BlockMemory(std::vector<Place> places, const mwis::local_search::OperatorScores& operator_scores)
       : places_(std::move(places)), operator_scores_(operator_scores) {}
 
-  // The knowledge about this region, in its numbers; `keys` are those of the rank's local graph.
+  // What is known about a region, with the vertices' numbers in it. `keys` are those of the rank's local graph, by
+  // vertex.
   mwis::local_search::LnsMemory recall(const Region& region, std::span<const std::uint64_t> keys) const;
+  // Takes what a search of the region has learnt. Places outside of the region stay.
   void remember(const mwis::local_search::LnsMemory& memory, const Region& region, std::span<const std::uint64_t> keys);
   // Places of these keys, ascending, count as never tried; the size of their fragments stays.
   void forget_tries(std::span<const std::uint64_t> keys);
 
-  // The size that fragments have reached; 0: nothing is known.
+  // The mean size of the next exact fragments, in free vertices; 0: nothing is known.
   std::size_t usual_size() const;
 
-  // Takes what the others, of other places, have learnt.
+  // Adds what other blocks have learnt, whose places are others.
   void join(std::span<const BlockMemory> others);
 
   const std::vector<Place>& places() const { return places_; }
   const mwis::local_search::OperatorScores& operator_scores() const { return operator_scores_; }
 
  private:
-  std::vector<Place> places_;  // ascending
+  std::vector<Place> places_;  // by ascending key
   mwis::local_search::OperatorScores operator_scores_;
 };
 

@@ -22,11 +22,12 @@ namespace hexpipe::lns_mpi {
 class Checkpoint {
  public:
   // Makes the directory. `fingerprint` is that of the graph. All ranks call this and the functions below together.
+  // Throws on all ranks if one cannot read or write.
   Checkpoint(Ranks& ranks, std::string directory, double seconds_between, std::uint64_t fingerprint);
 
-  // Returns the keys of the vertices that an earlier run chose in the blocks of this rank, ascending, maybe with keys
-  // of other blocks, and stores the rest in `progress` and `memories`. Without a checkpoint, returns nothing and
-  // changes nothing. Throws DataError when the checkpoint is damaged or of another graph.
+  // Returns the keys of the vertices that an earlier run chose in the blocks of this rank, ascending; some of other
+  // blocks may be among them. Stores the rest in `progress` and `memories`. Without a checkpoint, returns nullopt and
+  // changes nothing. Throws DataError if the checkpoint is damaged or of another graph.
   std::optional<std::vector<std::uint64_t>> resume(const BlockOwners& owners, RoundsProgress& progress,
                                                    std::vector<BlockMemory>& memories);
 

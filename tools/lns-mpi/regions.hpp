@@ -1,11 +1,11 @@
 #pragma once
-// Decides where each block may change the solution in a round. Each round draws a new order of the blocks. A block
-// takes the vertices that are at most `overlap` edges away from it and that no earlier block takes, so that borders
-// move to and fro and leave no seam. Where an edge joins vertices of two blocks, the vertex of the later block stays as
-// it is; then all blocks can be searched at the same time.
+// Decides where each block may change the solution in a round. Each round has an order of the blocks. A block takes the
+// vertices that are at most `overlap` edges away from it and that no earlier block takes. So borders move from round to
+// round, and none stays where it is. Where an edge joins vertices of two blocks, the vertex of the later
+// block stays as it is. Then all blocks can be searched at the same time.
 //
-// A rank may also search its blocks as one: then nothing has to stay as it is between two of them. The order is of
-// blocks all the same, so that a border between two ranks moves to the one side here and to the other there.
+// A rank may also search its blocks as one. Then no vertex has to stay between two of them. The order is still one of
+// blocks, so that one part of the border between two ranks moves to one side and another part to the other.
 
 #include <cstdint>
 #include <vector>
@@ -39,7 +39,7 @@ class Searchers {
 
 class Regions {
  public:
-  // Every rank draws the same order.
+  // Every rank draws the same order: it depends on the seed and the round alone.
   Regions(const LocalGraph& local, const Searchers& searchers, std::uint64_t seed, std::int64_t round);
 
   // The region of one of the rank's own searchers.

@@ -5,8 +5,8 @@
 //
 // The result does not depend on the number of ranks unless a time limit ends the search. The regions, their seeds and
 // their numbers of fragments follow from the blocks and the round alone. There are no edges between regions, so it does
-// not matter which rank searches which region, and when. All sums over ranks are of whole numbers. The only cost is
-// that the number of blocks must be given, or follow from the graph.
+// not matter which rank searches which region, and when. All sums over ranks are of integers. The only price is that
+// the number of blocks must be given or follow from the graph.
 
 #include <cstdint>
 #include <functional>
@@ -45,16 +45,18 @@ struct RoundCosts {
   Traffic traffic;
 };
 
-// In each block alone, takes or leaves out the vertices that can be decided without search, so that some heaviest
-// solution agrees. The solution may lose a little until the search has caught up. Returns false, and decides nothing,
-// where a sample of a large graph shows that this decides too few. All ranks call this together.
+// Exact reductions in each block alone: takes or leaves out the vertices that can be decided without search, such that
+// some heaviest solution agrees. The solution may lose a little weight until the search has caught up. Returns false,
+// and decides nothing, if the graph is large and a sample shows that reductions decide too few. All ranks call this
+// together.
 bool reduce_blocks(Ranks& ranks, LocalGraph& local, const Deadline& deadline);
 
-// Begins with the solution in `local`, or continues from `progress` with the choice of an `earlier` run (its keys,
-// ascending, of at least the vertices that this rank owns). A search that was stopped in between has the same result,
-// which is not lighter than the solution in `local`. Chosen vertices may be neighbours if they are in different blocks.
-// `memories` has an entry for each block of this rank, in order; it is empty before the search. `report` is called
-// after every round on all ranks; its last argument is true after the last round.
+// Begins with the solution in `local`, or continues from `progress` with the choice of an `earlier` run: its keys,
+// ascending, of at least the vertices that this rank owns. A search that was stopped and continued has the same result
+// as one that was not. The result is in `local` and is not lighter than the solution there before, in which chosen
+// vertices may be neighbours if they are in different blocks. `memories` has an entry for each block of this rank, in
+// order; it is empty before the search. `report` is called after every round on all ranks; its last argument is true
+// after the last round.
 void improve_in_rounds(Ranks& ranks, LocalGraph& local, const RoundsOptions& options, const Deadline& deadline,
                        const std::optional<std::vector<std::uint64_t>>& earlier, RoundsProgress& progress,
                        std::vector<BlockMemory>& memories,

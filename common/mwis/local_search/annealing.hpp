@@ -1,6 +1,7 @@
 #pragma once
-// Simulated annealing from one local optimum to the next. A kick forces a random vertex in or out; Push and (1,2)-swaps
-// settle the surroundings. Metropolis' rule accepts a loss or takes everything back. The moves are those of iterated
+// Simulated annealing from one local optimum to the next. A kick forces a random vertex in or out; pushes (a vertex
+// comes in, its chosen neighbours go out) and (1,2)-swaps make the surroundings locally optimal again. Metropolis' rule
+// accepts a loss or undoes all of it. The moves are those of iterated
 // local search for independent sets (Andrade, Resende, Werneck 2012; Nogueira, Pinheiro, Subramanian 2018); the
 // acceptance is that of basin hopping (Wales and Doye 1997). Iterated local search accepts only solutions that are not
 // worse than the best as a whole. A temperature lets every region of a large graph cross its own barriers at the same
@@ -23,10 +24,10 @@ struct Cooling {
   double hot = 0.3;
   double cold = 0.03;
 
-  // `progress` is from 0 to 1.
+  // The temperature when this share of the cooling is done, from 0 to 1.
   double at(double progress) const;
 
-  // For a graph with this many chosen vertices at the start.
+  // What suits a graph of which a solution has this many vertices.
   static Cooling for_chosen(std::int64_t chosen);
 };
 
@@ -42,7 +43,7 @@ class Annealing {
            std::int64_t most_touched = std::numeric_limits<std::int64_t>::max());
 
   std::int64_t kicks() const { return kicks_; }
-  // The total number of neighbours of the vertices that went in or out; the time is proportional to it.
+  // The total number of neighbours of the vertices that went in or out. The time is proportional to it.
   std::int64_t touched() const { return touched_; }
   std::int64_t best_weight() const { return best_weight_; }
   graph::IndependentSet best() const;
@@ -51,7 +52,7 @@ class Annealing {
   // The mean weight of a vertex of the current solution; 1 if nothing is chosen.
   double mean_weight() const;
 
-  // Whether the state is right and locally optimal; for tests.
+  // Whether the state is consistent and locally optimal; for tests.
   bool check() const;
 
  private:

@@ -12,7 +12,8 @@
 
 namespace hexpipe::mwis::local_search {
 
-// Everything that can be chosen once `released` are not: these, and the vertices without other chosen neighbours.
+// The vertices that become free when those of `released` leave the solution: these, and all without another chosen
+// neighbour.
 struct Fragment {
   std::vector<std::int32_t> released;  // chosen vertices, from the seed outwards
   std::vector<std::int32_t> vertices;  // the free vertices, with the released ones
@@ -35,13 +36,13 @@ class FragmentGrower {
   void let_go(const Fragment& fragment);
   // False if a held fragment has the vertex or a neighbour of it.
   bool is_free(std::int32_t v) const { return !is_held(marks_[v].claim); }
-  // Releases chosen vertices around `seed`, which is free and chosen, until at least `target` vertices are free or the
-  // component is complete. At most `limit` become free, which matters at vertices of high degree. The fragment is then
-  // held.
+  // Grows a fragment around `seed`, a chosen vertex for which is_free() holds: releases chosen vertices until at least
+  // `target` vertices are free or the component is complete. At most `limit` become free, which matters at vertices of
+  // high degree. The fragment is held from then on.
   void grow(std::int32_t seed, std::size_t target, std::size_t limit, Fragment& fragment);
 
-  // The graph of the fragment's vertices; `chosen` gets the released ones. Several held fragments may be extracted at
-  // the same time.
+  // Copies the graph of the fragment's vertices, numbered by their place in the fragment; `chosen` gets the released
+  // ones. Several threads may extract held fragments at the same time.
   void extract(const Fragment& fragment, ground::DenseGraph& graph, std::vector<bits::Word>& chosen) const;
   // The same for fragments that are too large for a matrix. The fragment's vertices must ascend.
   void extract(const Fragment& fragment, graph::ConflictGraph& graph, graph::IndependentSet& chosen) const;

@@ -12,10 +12,11 @@
 
 namespace hexpipe::mwis::local_search {
 
-// Reuses its memory for the next fragment.
+// Use: begin(), grow fragment() by a FragmentGrower, extract(), solve(), then ask for the result. The memory is reused
+// for the next fragment.
 class FragmentSolver {
  public:
-  // Comes first, because the operator decides how large the fragment may be.
+  // The operator decides how large the fragment may be.
   void begin(Operator op) { operator_ = op; }
   Operator used_operator() const { return operator_; }
   Fragment& fragment() { return fragment_; }
@@ -23,17 +24,19 @@ class FragmentSolver {
 
   // Copies the graph of the fragment; solve needs nothing else afterwards.
   void extract(FragmentGrower& grower);
-  // `budget` is the greatest number of branch-and-bound nodes for the exact operator, and the number of kicks per
-  // vertex for the others. `usual`: temperatures that suit the whole graph. `short_coolings`: of the whole graph, if
-  // they suit it; a fragment that is all of it goes on with them, and others make their own.
+  //   budget          the most nodes of branch and bound for the exact operator; the kicks per vertex for the others
+  //   usual           temperatures that suit the whole graph
+  //   short_coolings  a search of the whole graph, if short coolings suit it. A fragment that is the whole graph
+  //   continues
+  //                   it; other fragments make their own.
   void solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual = {},
              ShortCoolings* short_coolings = nullptr);
 
-  // After solve: by place in fragment().vertices, a set that is not lighter.
+  // After solve(): whether the i-th of fragment().vertices is in the new set, which is not lighter than the old one.
   bool chooses(std::size_t i) const { return bits::test(chosen_.data(), i); }
   // Whether it is proven that no other set is heavier.
   bool complete() const { return complete_; }
-  // The work done, roughly in nanoseconds, but the same on every machine.
+  // The work done, roughly in nanoseconds, but counted, so that it is the same on every machine.
   double work() const { return work_; }
   // The expected work of a kick in this graph, in the same unit.
   static double work_a_kick(const graph::ConflictGraph& graph);
@@ -42,7 +45,7 @@ class FragmentSolver {
   void solve_exactly(std::int64_t nodes, const Deadline& deadline);
   void anneal(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual);
   void recombine(std::int64_t kicks_a_vertex, Random random, const Deadline& deadline, const Cooling& usual);
-  // In about the time of so many kicks.
+  // In about the time that so many kicks take.
   void recombine_short_coolings(std::int64_t kicks_a_vertex, const Deadline& deadline, ShortCoolings& search);
   graph::IndependentSet cool(Annealing& search, const Cooling& cooling, std::int64_t kicks_a_vertex,
                              const Deadline& deadline);

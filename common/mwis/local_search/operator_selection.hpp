@@ -30,7 +30,7 @@ using OperatorScores = std::array<OperatorScore, all_operators.size()>;  // by o
 
 class OperatorSelection {
  public:
-  // The share that each operator keeps at least, because its gains may come later; below 1 in all.
+  // The least share of each operator, because its gains may come later. The sum must be below 1.
   using LeastShares = std::array<double, all_operators.size()>;
   static constexpr LeastShares usual_least_shares{0.2, 0.2, 0.1};
 
@@ -43,14 +43,16 @@ class OperatorSelection {
   // whose work counted as nothing would get every next turn, for ever.
   static constexpr double least_work = 1000;
 
-  // The work of one use of this operator; 0 until told.
+  // Sets the expected work of one use of this operator; 0 until then.
   void expect(Operator op, double work) { score_of(op).cost = work; }
+  // The operator that gets the next work.
   Operator next() const;
-  // `work` is roughly in nanoseconds. The last tenths of a second decide the shares.
+  // After a use: its work, roughly in nanoseconds, and its gain in units of weight. The last tenths of a second decide
+  // the shares.
   void record(Operator op, double work, double gain);
   double share_of(Operator op) const;
 
-  // Used to continue as an earlier search ended.
+  // To continue as an earlier search ended.
   const OperatorScores& scores() const { return scores_; }
   void recall(const OperatorScores& scores) { scores_ = scores; }
 

@@ -1,8 +1,8 @@
 #pragma once
-// Tabu search over pushes (multi-neighbourhood tabu search: Wu, Hao, Glover 2012): in each move the vertex comes in
-// that gains most, or loses least, though its chosen neighbours go out; those may not come back for some moves. After
-// many moves in vain it begins anew from nothing. Where few vertices are chosen this finds what coolings miss
-// (docs/log/mwis.md).
+// Tabu search over pushes (multi-neighbourhood tabu search: Wu, Hao, Glover 2012). In each move the vertex with the
+// greatest gain comes in, even if that is a loss, and its chosen neighbours go out; these may not come back for some
+// moves (their tenure). After many moves in vain the search starts again from the empty set. Where few vertices are
+// chosen this finds what coolings miss (docs/log/mwis.md).
 
 #include <array>
 #include <cstddef>
@@ -19,24 +19,25 @@
 
 namespace hexpipe::mwis::local_search {
 
-// How long the i-th run of a search that begins anew is, from 1: 1, 1, 2, 1, 1, 2, 4, ... Each length gets the same
-// time in all (Luby, Sinclair, Zuckerman 1993), because nobody knows which one suits the graph.
+// The length of the i-th start, i from 1: 1, 1, 2, 1, 1, 2, 4, ... In this sequence each length gets the same time in
+// total (Luby, Sinclair, Zuckerman 1993), because nobody knows which one suits the graph.
 std::int64_t luby(std::int64_t i);
 
 class PushTabu {
  public:
-  // PushGains must suit the graph.
+  // PushGains::suit() must hold for the graph.
   PushTabu(const graph::ConflictGraph& graph, Random random);
 
-  // Makes so many more moves; fewer if the deadline passes, or once touched() has come to `most_touched`. It goes on
-  // where the last call ended.
+  // Makes `moves` more moves, from where the last call ended; fewer if the deadline passes or touched() comes to
+  // `most_touched`.
   void run(std::int64_t moves, const Deadline& deadline, double most_touched = std::numeric_limits<double>::infinity());
 
   std::int64_t best_weight() const { return best_weight_; }
   // Ascending.
   graph::IndependentSet best() const;
   std::int64_t moves() const { return moves_; }
-  // For how many moves at least, and less than twice as many, a vertex stays out in the starts that reach most.
+  // The tenure of the starts that reach most: a vertex stays out for at least so many moves, and for less than twice as
+  // many.
   std::int64_t usual_tenure() const { return tenures[best_tenure()]; }
   // The work done, in neighbours that a walk touches in the same time.
   double touched() const { return touched_; }

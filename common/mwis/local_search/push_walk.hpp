@@ -1,7 +1,7 @@
 #pragma once
 // A random walk over independent sets: a random vertex comes in and its chosen neighbours go out, if Metropolis' rule
-// accepts that. Nothing is settled or taken back, so a refused vertex costs some nanoseconds. Where few vertices are
-// chosen this visits many more sets than kicks do (annealing.hpp).
+// accepts that. No local search follows, and nothing has to be undone, so a refused vertex costs some nanoseconds.
+// Where few vertices are chosen this visits many more sets than kicks do (annealing.hpp).
 
 #include <cstdint>
 #include <vector>
@@ -17,11 +17,11 @@ class PushWalk {
   // `start` must be independent. It is made maximal.
   PushWalk(const graph::ConflictGraph& graph, const graph::IndependentSet& start, Random random);
 
-  // Draws up to so many vertices at this temperature, in units of weight and above 0; fewer if the deadline passes.
+  // Draws `trials` vertices at this temperature, which is in units of weight and above 0; fewer if the deadline passes.
   // Returns the greatest weight on the way.
   std::int64_t run(std::int64_t trials, double temperature, const Deadline& deadline);
 
-  // The vertices drawn, and the total number of neighbours of those that went in or out. Both take the time.
+  // The vertices drawn, and the total number of neighbours of those that went in or out. Both take time.
   std::int64_t trials() const { return trials_; }
   std::int64_t touched() const { return touched_; }
   std::int32_t vertex_count() const { return state_.graph().vertex_count(); }

@@ -15,9 +15,9 @@ namespace hexpipe::mwis::local_search {
 
 class Remainder {
  public:
-  // Takes a share of the time that is left, or as much as it needs if there is no limit.
-  // Large graphs with many conflicts are not reduced where a sample of them shows that this decides few vertices.
-  // `graph` must live as long as the remainder.
+  // Reduces the graph, in a share of the time that is left, or as long as it takes if there is no limit. A large graph
+  // with many conflicts is left as it is if a sample shows that reductions decide few of its vertices. `graph` must
+  // outlive the remainder.
   Remainder(const graph::ConflictGraph& graph, const Deadline& deadline);
   Remainder(const Remainder&) = delete;
   Remainder& operator=(const Remainder&) = delete;
@@ -25,12 +25,12 @@ class Remainder {
   const graph::ConflictGraph& graph() const { return is_whole_ ? kernel() : graph_; }
   // Whether lift() of the empty set is optimal.
   bool is_solved() const { return graph().vertex_count() == 0; }
-  // How much heavier a solution of the remainder becomes by the lift, at least.
+  // lift() makes a set heavier by at least this.
   std::int64_t offset() const { return (kernel_ ? kernel_->offset() : 0) + solved_weight_; }
 
   // A maximal independent set of the whole graph from one of the remainder.
   graph::IndependentSet lift(const graph::IndependentSet& of_remainder) const;
-  // The choice of a set of the whole graph within the remainder; not maximal in general.
+  // What a set of the whole graph chooses within the remainder; not maximal in general.
   graph::IndependentSet project(const graph::IndependentSet& of_whole) const;
   // The whole graph's numbers of these vertices, without those that reductions made of several.
   std::vector<std::int32_t> originals(std::span<const std::int32_t> of_remainder) const;

@@ -9,19 +9,19 @@
 
 namespace hexpipe::mwis::local_search {
 
-// Any chosen vertex is a possible seed. Seeds go first around which the fewest fragments were solved since the solution
-// last changed there, in random order. So the whole graph is worked through before anything is tried again. If
-// fragments are solved completely without gain, the next ones are larger; if they are not solved completely, smaller
-// (Verhetsel 2017, algorithm 12, kept per place).
+// Any chosen vertex is a possible seed of a fragment. The next seed is one of those around which the fewest fragments
+// were solved since the solution last changed there, drawn at random. So the whole graph is worked through before
+// anything is tried again. Where a fragment is solved completely without a gain, the next one is larger; where it is
+// not solved completely, smaller (Verhetsel 2017, algorithm 12, but for each place by itself).
 class Schedule {
  public:
   // Places with more tries are not distinguished: each number of tries has its own list.
   static constexpr std::uint32_t most_tries = 1 << 16;
 
-  // No seed waits at first.
+  // No vertex waits as a seed yet. Sizes are numbers of free vertices.
   Schedule(std::size_t vertices, std::size_t first_size, std::size_t largest_size, Random random);
 
-  // The next seed. It waits no more until renew, retire or wait. Empty if none waits.
+  // The next seed; nullopt if none waits. It does not wait any more until renew, retire or wait.
   std::optional<std::int32_t> take();
 
   // v waits as a seed with no tries around it.

@@ -1,7 +1,7 @@
 #pragma once
-// The search in graphs of which a solution has few vertices: many short coolings of a walk over pushes, in place of one
-// long one, and in turn with them a tabu search over pushes. Which basin a cooling ends in is a matter of luck there,
-// and most of them end after a moment.
+// The search for graphs whose solutions have few vertices. It makes many short coolings of a walk over pushes, not a
+// long one, and takes turns with a tabu search over pushes. On such graphs it is a matter of luck in which basin a
+// cooling ends, and most coolings have found their best after a moment.
 
 #include <cstdint>
 #include <optional>
@@ -16,14 +16,14 @@ namespace hexpipe::mwis::local_search {
 
 class ShortCoolings {
  public:
-  // Whether they suit a graph, of which a solution has about this many vertices.
+  // Whether they suit the graph, if its solutions have about this many vertices.
   static bool suit(const graph::ConflictGraph& graph, std::int64_t chosen);
 
   // `start` must be independent.
   ShortCoolings(const graph::ConflictGraph& graph, const graph::IndependentSet& start, Random random);
 
-  // Searches for as long as it takes to touch so many more neighbours; less if the deadline passes. It goes on where
-  // the last call ended.
+  // Searches for as long as it takes to touch `touched` more neighbours, from where the last call ended; less if the
+  // deadline passes.
   void run(double touched, const Deadline& deadline);
 
   std::int64_t best_weight() const { return tabu_is_ahead() ? tabu_->best_weight() : walk_.best_weight(); }
