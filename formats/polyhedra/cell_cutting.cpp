@@ -10,6 +10,7 @@
 namespace hexpipe::polyhedra {
 namespace {
 
+// How far the middle moves, by the length of its edge. The least is enough between flat faces, warped ones need more.
 constexpr std::array<double, 4> depths{1e-3, 1e-2, 0.05, 0.15};
 
 class Cutter {
@@ -23,10 +24,10 @@ class Cutter {
       for (const double depth : depths) {
         Cut cut = way;
         cut.depth = depth;
-        const auto worth = worth_of_change(mesh_, around, {cell_}, [&] { return make(cut); });
-        if (!worth || worth->refused >= 0 || worth->own > 0 || worth->hex_volume > most_hexes) continue;
-        if (found && found->worth <= *worth) continue;
-        cut.worth = *worth;
+        const auto cost = cost_of_change(mesh_, around, {cell_}, [&] { return make(cut); });
+        if (!cost || cost->wrong_added >= 0 || cost->wrong_in_new > 0 || cost->hex_volume_lost > most_hexes) continue;
+        if (found && found->cost <= *cost) continue;
+        cut.cost = *cost;
         found = cut;
       }
     }
@@ -39,35 +40,12 @@ class Cutter {
     const CellSet around = cells_at_edge(cut.from, cut.to);
     const Vertex middle = mesh_.add_point(place_of(cut, faces));
     const std::int32_t other = mesh_.add_cell_after(cell_);
-    std::set<std::int32_t> changed;
-    for (const std::int32_t cell : around)
-      for (const std::int32_t face : mesh_.faces_of(cell))
-        if (has_edge(mesh_, face, cut.from, cut.to)) changed.insert(face);
-    for (const std::int32_t face : changed) {
-      std::vector<Vertex> loop;
-      const auto corners = mesh_.mesh().corners_of(mesh_.mesh().faces[face]);
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        loop.push_back(corners[i]);
-        const Vertex next = corners[(i + 1) % corners.size()];
-        if ((corners[i] == cut.from && next == cut.to) || (corners[i] == cut.to && next == cut.from))
-          loop.push_back(middle);
-      }
-      mesh_.set_loop(face, loop);
-      mesh_.measure_face(face);
-    }
-    // The halves of the two faces: the first with `from`.
+    insert_middle(cut, around, middle);
+    std::array<std::int32_t, 2> second{};  // the halves of the two faces that get the cut's end, not its start
     const std::array ends{cut.left, cut.right};
-    std::array<std::int32_t, 2> second{};
     for (std::size_t i = 0; i < 2; ++i) second[i] = halve(faces[i], middle, ends[i], cut.from);
     divide(cut, faces, second, other);
-    // Against the sense of the half that the cell keeps.
-    const std::vector<Vertex> kept = loop_of(faces[0]);
-    const auto at = std::ranges::find(kept, middle) - kept.begin();
-    const bool goes_left = kept[static_cast<std::size_t>(at + 1) % kept.size()] == cut.left;
-    const std::array<Vertex, 3> wall_loop{middle, goes_left ? cut.right : cut.left, goes_left ? cut.left : cut.right};
-    const std::int32_t wall = mesh_.add_face(wall_loop, cell_, other, no_index, false);
-    mesh_.measure_face(wall);
-    add_face_to(cell_, wall), add_face_to(other, wall);
+    add_wall(cut, faces[0], middle, other);
     mesh_.measure_cell(other);
     for (const std::int32_t cell : around) {
       mesh_.set_hex(cell, false);
@@ -80,23 +58,51 @@ class Cutter {
  private:
   std::vector<Vertex> loop_of(std::int32_t face) const { return loop_from(mesh_, face, cell_); }
 
-  // The face of the cell that has this edge in this direction, as seen from outside.
+  // The middle becomes a corner of all faces at the edge.
+  void insert_middle(const Cut& cut, const CellSet& around, Vertex middle) {
+    std::set<std::int32_t> changed;
+    for (const std::int32_t cell : around)
+      for (const std::int32_t face : mesh_.faces_of(cell))
+        if (has_edge(mesh_, face, cut.from, cut.to)) changed.insert(face);
+    for (const std::int32_t face : changed) {
+      std::vector<Vertex> loop;
+      for (const auto& [a, b] : edges_of(mesh_.mesh().corners_of(mesh_.mesh().faces[face]))) {
+        loop.push_back(a);
+        if ((a == cut.from && b == cut.to) || (a == cut.to && b == cut.from)) loop.push_back(middle);
+      }
+      mesh_.set_loop(face, loop);
+      mesh_.measure_face(face);
+    }
+  }
+
+  // The face between the two parts. Where it meets the half of a face that the cell keeps, it goes the other way round.
+  void add_wall(const Cut& cut, std::int32_t kept_half, Vertex middle, std::int32_t other) {
+    const std::vector<Vertex> kept = loop_of(kept_half);
+    const auto at = std::ranges::find(kept, middle) - kept.begin();
+    const bool goes_left = kept[static_cast<std::size_t>(at + 1) % kept.size()] == cut.left;
+    const std::array<Vertex, 3> loop{middle, goes_left ? cut.right : cut.left, goes_left ? cut.left : cut.right};
+    const std::int32_t wall = mesh_.add_face(loop, cell_, other, no_index, false);
+    mesh_.measure_face(wall);
+    add_face_to(cell_, wall), add_face_to(other, wall);
+  }
+
+  // The face of the cell that has this edge in this direction, as seen from outside; no_index if there is none.
   std::int32_t face_with(Vertex from, Vertex to) const {
     for (const std::int32_t face : mesh_.faces_of(cell_)) {
       const std::vector<Vertex> loop = loop_of(face);
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        if (loop[i] == from && loop[(i + 1) % loop.size()] == to) return face;
+      for (const auto& [a, b] : edges_of(loop))
+        if (a == from && b == to) return face;
     }
     return no_index;
   }
 
-  // Edges with two corners of their faces that an edge of the cell joins.
+  // All ways to cut the cell: each edge, with each pair of corners of its two faces that an edge of the cell joins.
   std::vector<Cut> ways() const {
     std::vector<std::pair<Vertex, Vertex>> edges;
     for (const std::int32_t face : mesh_.faces_of(cell_)) {
       const std::vector<Vertex> loop = loop_of(face);
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        if (loop[i] < loop[(i + 1) % loop.size()]) edges.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
+      for (const auto& [a, b] : edges_of(loop))
+        if (a < b) edges.emplace_back(a, b);
     }
     std::ranges::sort(edges);
     const auto is_edge = [&](Vertex a, Vertex b) {
@@ -120,7 +126,7 @@ class Cutter {
     return cells_joined_by(mesh_, cell_, [&](std::int32_t face) { return has_edge(mesh_, face, a, b); });
   }
 
-  // Away from the cells behind the two faces, and along the boundary.
+  // The place of the edge's middle: moved away from the cells behind the two faces, and along the boundary.
   Vec3 place_of(const Cut& cut, std::span<const std::int32_t> faces) const {
     const Vec3 &a = mesh_.mesh().points[cut.from], &b = mesh_.mesh().points[cut.to];
     Vec3 way{};
@@ -135,7 +141,8 @@ class Cutter {
     return (a + b) * 0.5 + unit(way) * (cut.depth * norm(b - a));
   }
 
-  // Cuts the face from one corner to the other. It keeps the half that has `kept`; returns the other one.
+  // Cuts the face from the middle to the corner `end`. The face keeps the half with the corner `kept`; returns the
+  // other.
   std::int32_t halve(std::int32_t face, Vertex middle, Vertex end, Vertex kept) {
     const PolyhedralMesh::Face at = mesh_.mesh().faces[face];
     const auto corners = mesh_.mesh().corners_of(at);
@@ -158,11 +165,10 @@ class Cutter {
     mesh_.set_faces(cell, faces);
   }
 
-  // The other cell gets the faces behind the cut: those that are joined to the second halves by edges, but for the
-  // cut's.
+  // The other cell gets the faces on its side of the cut: the second halves, and all that are joined to them by edges
+  // without crossing the cut.
   void divide(const Cut& cut, std::span<const std::int32_t> first, std::span<const std::int32_t> second,
               std::int32_t other) {
-    std::set<std::pair<Vertex, Vertex>> edges;
     std::vector<std::int32_t> behind(second.begin(), second.end()), rest;
     for (const std::int32_t face : mesh_.faces_of(cell_))
       if (face != first[0] && face != first[1]) rest.push_back(face);
@@ -172,13 +178,12 @@ class Cutter {
     };
     for (std::size_t i = 0; i < behind.size(); ++i) {
       const std::vector<Vertex> loop = loop_of(behind[i]);
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Vertex a = loop[k], b = loop[(k + 1) % loop.size()];
+      for (const auto& [a, b] : edges_of(loop)) {
         if (is_wall(a, b)) continue;
+        const std::pair back(b, a);
         std::erase_if(rest, [&](std::int32_t face) {
           const std::vector<Vertex> own = loop_of(face);
-          bool joins = false;
-          for (std::size_t j = 0; j < own.size(); ++j) joins |= own[j] == b && own[(j + 1) % own.size()] == a;
+          const bool joins = std::ranges::any_of(edges_of(own), [&](const auto& edge) { return edge == back; });
           if (joins) behind.push_back(face);
           return joins;
         });

@@ -1,6 +1,7 @@
 #pragma once
-// A cell is cut in two from the middle of an edge: so a tet with two facets on the boundary becomes two tets, each with
-// a face between them that has the direction which its other inner faces lack.
+// A cell is cut in two by a triangle from the middle of an edge to the other corners of two faces there. So a tet with
+// two facets on the boundary becomes two tets, and the face between them has the direction that their other inner faces
+// lack for a larger determinant.
 
 #include <optional>
 
@@ -9,18 +10,20 @@
 namespace hexpipe::polyhedra {
 
 struct Cut {
-  Worth worth{};
+  Cost cost{};
   std::int32_t cell = no_index;
-  Vertex from = no_index, to = no_index;     // the edge
-  Vertex left = no_index, right = no_index;  // corners of the two faces at the edge, and ends of an edge of the cell
-  double depth = 0;                          // how far the edge's middle moves into the cell, by the edge's length
+  Vertex from = no_index, to = no_index;     // the edge that is halved
+  Vertex left = no_index, right = no_index;  // a corner of each face at it; an edge of the cell joins them
+  double depth = 0;                          // how far the middle moves into the cell, by the length of the edge
 };
 
-// The best way to cut the cell that leaves nothing wrong with its parts, and less around them than before.
+// The cheapest cut of the cell that leaves nothing wrong with its parts, and less around them than before. `most_hexes`
+// is the volume of hexes that may become polyhedra.
 std::optional<Cut> best_cut(MeasuredMesh& mesh, std::int32_t cell, double most_hexes);
 
-// The middle moves so that the halves of both faces are convex for the cells behind them, and all faces around the edge
-// get it as a corner. False if the edge is not one that two faces of the cell have; nothing is changed then.
+// Makes the cut. The middle moves away from the cells behind the two faces, so that the halves of these faces are
+// convex for them, and becomes a corner of all faces around the edge. False, and nothing is changed, if the edge is not
+// one of two faces of the cell.
 bool cut_cell(MeasuredMesh& mesh, const Cut& cut);
 
 }  // namespace hexpipe::polyhedra

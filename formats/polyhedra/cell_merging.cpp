@@ -12,13 +12,14 @@
 namespace hexpipe::polyhedra {
 namespace {
 
-// How far sets are tried: cells in a set, sets of a size that get another cell, and sets in all.
+// How far the beam search goes.
 struct Effort {
-  std::size_t cells, beam, sets;
+  std::size_t cells;  // in a set, at most
+  std::size_t beam;   // sets of one size that grow by a cell
+  std::size_t sets;   // that are tried, in all
 };
 constexpr Effort quick{6, 24, 400}, full{12, 48, 1500};
-// So many of each size go to `nearly`, and so many in all.
-constexpr std::size_t most_nearly = 3, most_nearly_in_all = 12;
+constexpr std::size_t most_near_misses_of_a_size = 3, most_near_misses = 12;
 
 CellSet with(CellSet cells, std::int32_t cell) {
   cells.insert(std::ranges::upper_bound(cells, cell), cell);
@@ -30,7 +31,7 @@ class Merger {
   explicit Merger(MeasuredMesh& mesh) : mesh_(mesh) {}
 
   std::optional<Merge> best(std::span<const std::int32_t> seeds, bool thorough, double most_hexes,
-                            std::vector<Merge>& nearly) {
+                            std::vector<Merge>& near_misses) {
     const Effort effort = thorough ? full : quick;
     std::vector<CellSet> sets;
     for (const std::int32_t seed : seeds)
@@ -42,17 +43,16 @@ class Merger {
         for (const std::int32_t cell : neighbours_of(set, most_hexes > 0)) {
           CellSet larger = with(set, cell);
           if (!seen.insert(larger).second) continue;
-          const auto worth =
-              worth_of_change(mesh_, with_neighbours(mesh_, larger), {larger[0]}, [&] { return merge(larger); });
-          if (worth) tried.push_back({*worth, std::move(larger)});
+          const auto cost =
+              cost_of_change(mesh_, with_neighbours(mesh_, larger), {larger[0]}, [&] { return merge(larger); });
+          if (cost) tried.push_back({*cost, std::move(larger)});
         }
       std::ranges::sort(tried);
       for (const Merge& one : tried)
-        if (one.worth.refused < 0 && one.worth.own == 0 && one.worth.hex_volume <= most_hexes) return one;
-      std::ranges::stable_sort(tried, {}, [](const Merge& one) { return std::pair(one.worth.own, one.worth); });
-      for (std::size_t i = 0; i < std::min(tried.size(), most_nearly) && nearly.size() < most_nearly_in_all; ++i)
-        if (tried[i].worth.own == 1 && tried[i].worth.refused <= 0 && tried[i].worth.hex_volume <= most_hexes)
-          nearly.push_back(tried[i]);
+        if (one.cost.wrong_added < 0 && one.cost.wrong_in_new == 0 && one.cost.hex_volume_lost <= most_hexes)
+          return one;
+      std::ranges::stable_sort(tried, {}, [](const Merge& one) { return std::pair(one.cost.wrong_in_new, one.cost); });
+      note_near_misses(tried, most_hexes, near_misses);
       if (tried.size() > effort.beam) tried.resize(effort.beam);
       sets.clear();
       for (Merge& one : tried) sets.push_back(std::move(one.cells));
@@ -60,8 +60,7 @@ class Merger {
     return std::nullopt;
   }
 
-  // The first cell of the set becomes the polyhedron, the others are gone. False if it is not a ball with a simple
-  // skin; then the mesh is half changed.
+  // What merge_cells() says.
   bool merge(const CellSet& set) {
     Groups groups;
     Change change;
@@ -74,13 +73,22 @@ class Merger {
   }
 
  private:
+  // `tried` is sorted, the sets with the least wrong first.
+  static void note_near_misses(const std::vector<Merge>& tried, double most_hexes, std::vector<Merge>& near_misses) {
+    for (const Merge& one : std::span(tried).first(std::min(tried.size(), most_near_misses_of_a_size)))
+      if (near_misses.size() < most_near_misses && one.cost.wrong_in_new == 1 && one.cost.wrong_added <= 0 &&
+          one.cost.hex_volume_lost <= most_hexes)
+        near_misses.push_back(one);
+  }
+
   // A face of the skin, and its cell in the set.
   struct Outer {
     std::int32_t face, cell;
   };
-  // Where faces may be one: the cell behind, or none, the surface, and whether its facets look into the set. Without a
-  // surface, that is whether the cell behind has the lower number: this keeps some faces apart by chance. With all of
-  // them joined, mambo-s27 kept three tets, and spot and blub as many as before.
+  // What faces must have in common to become one: the cell behind them (no_index at the boundary), the surface, and
+  // whether the surface's normal points into the set. Without a surface, the last is whether the cell behind owns the
+  // face, which keeps some faces apart by chance. Joined all the same, mambo-s27 kept three tets that are wrong, and
+  // spot and blub as many as before.
   struct Side {
     std::int32_t cell, surface;
     bool looks_back;
@@ -89,11 +97,12 @@ class Merger {
   using Groups = std::map<Side, std::vector<Outer>>;
   struct Change {
     std::int32_t whole = no_index;
-    std::vector<std::int32_t> skin, gone;                      // faces
-    std::map<std::int32_t, std::vector<std::int32_t>> behind;  // by cell: faces that it loses, and gets
+    std::vector<std::int32_t> skin;                            // the polyhedron's faces
+    std::vector<std::int32_t> gone;                            // faces inside it, and those that became one
+    std::map<std::int32_t, std::vector<std::int32_t>> behind;  // by cell behind it: faces that it loses or gets
   };
 
-  // False if a surface is inside.
+  // Sorts the faces of the set into those inside and, by side, those of its skin. False if one inside is on a surface.
   bool gather(const CellSet& set, Groups& groups, Change& change) const {
     for (const std::int32_t cell : set)
       for (const std::int32_t number : mesh_.faces_of(cell)) {
@@ -110,7 +119,7 @@ class Merger {
     return true;
   }
 
-  // The faces that become one each.
+  // Divides faces of one side into groups that become one face each.
   std::vector<std::vector<Outer>> joined_parts(const std::vector<Outer>& outer, std::int32_t cell_behind) const {
     JoinedSets joined(outer.size());
     for (std::size_t i = 0; i < outer.size(); ++i)
@@ -125,6 +134,7 @@ class Merger {
     return list;
   }
 
+  // False if the faces together are not a single loop.
   bool add_to_skin(const CellSet& set, const Side& side, const std::vector<Outer>& parts, Change& change) {
     if (parts.size() == 1) {
       const PolyhedralMesh::Face face = mesh_.mesh().faces[parts[0].face];
@@ -148,6 +158,7 @@ class Merger {
     return true;
   }
 
+  // False if a cell behind would have fewer than four faces.
   bool apply(const CellSet& set, const Change& change) {
     for (const std::int32_t cell : set) mesh_.set_faces(cell, {});
     mesh_.set_faces(change.whole, change.skin);
@@ -173,7 +184,7 @@ class Merger {
 
   bool is_allowed(std::int32_t cell, bool with_hexes) const { return with_hexes || mesh_.mesh().is_hex[cell] == 0; }
 
-  // Cells behind faces on no surface, in the same region.
+  // Cells of the same region behind faces that are on no surface.
   CellSet neighbours_of(const CellSet& set, bool with_hexes) const {
     CellSet found;
     for (const std::int32_t cell : set)
@@ -193,29 +204,28 @@ class Merger {
 
   bool share_an_edge(std::int32_t one, std::int32_t two) const {
     const auto corners = mesh_.mesh().corners_of(mesh_.mesh().faces[one]);
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      if (has_edge(mesh_, two, corners[i], corners[(i + 1) % corners.size()])) return true;
-    return false;
+    return std::ranges::any_of(edges_of(corners),
+                               [&](const auto& edge) { return has_edge(mesh_, two, edge.first, edge.second); });
   }
 
-  // Whether two facets of the boundary are as good as flat together, and would make a cell concave as two.
+  // Whether two facets of the boundary have no sharp edge between them, and as two faces would make the cell concave.
   bool are_one_facet(std::int32_t one, std::int32_t cell_of_one, std::int32_t two, std::int32_t cell_of_two) const {
-    constexpr double cosine_of_40 = 0.766, clearly = 1e-4;
+    constexpr double clearly = 1e-4;
     const Vec3 a = unit(mesh_.area(one, cell_of_one)), b = unit(mesh_.area(two, cell_of_two));
-    if (dot(a, b) < cosine_of_40) return false;
+    if (dot(a, b) < sharp_edge_cosine) return false;
     const Vec3 line = unit(mesh_.shape(two).centre - mesh_.shape(one).centre);
     return dot(line, a) > -clearly || dot(line, b) < clearly;
   }
 
-  // Whether the faces close around a ball: each edge has two of them, in both directions, and Euler's number is 2.
+  // Whether the faces are the skin of a ball: two meet at each edge, in opposite directions, and Euler's number is 2.
   bool is_ball(const std::vector<std::int32_t>& skin, std::int32_t whole) const {
     std::set<std::pair<std::int32_t, std::int32_t>> edges;
     std::set<std::int32_t> vertices;
     for (const std::int32_t face : skin) {
       const std::vector<Vertex> loop = loop_from(mesh_, face, whole);
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        vertices.insert(loop[i]);
-        if (!edges.emplace(loop[i], loop[(i + 1) % loop.size()]).second) return false;
+      for (const auto& [a, b] : edges_of(loop)) {
+        vertices.insert(a);
+        if (!edges.emplace(a, b).second) return false;
       }
     }
     for (const auto& [a, b] : edges)
@@ -229,9 +239,9 @@ class Merger {
 }  // namespace
 
 std::optional<Merge> best_merge(MeasuredMesh& mesh, std::span<const std::int32_t> seeds, bool thorough,
-                                double most_hexes, std::vector<Merge>& nearly) {
-  nearly.clear();
-  return Merger(mesh).best(seeds, thorough, most_hexes, nearly);
+                                double most_hexes, std::vector<Merge>& near_misses) {
+  near_misses.clear();
+  return Merger(mesh).best(seeds, thorough, most_hexes, near_misses);
 }
 
 bool merge_cells(MeasuredMesh& mesh, const CellSet& cells) {

@@ -8,11 +8,11 @@
 namespace hexpipe::polyhedra {
 namespace {
 
-// Of what is between the facets that go and those that come, by the mean edge around them: two equilateral triangles at
+// The height of a flat cell, by the mean length of the edges around its facets. Two equilateral triangles that meet at
 // an angle of 27 degrees reach it.
 constexpr double most_height = 0.2;
-// Between facets that go, and from them to those that come.
-constexpr double cosine_of_40 = 0.766, cosine_of_35 = 0.819;
+// Of the angle between the facets that go and those that come: 35 degrees.
+constexpr double most_turn_cosine = 0.819;
 
 class Leaver {
  public:
@@ -20,9 +20,9 @@ class Leaver {
     for (const std::int32_t face : mesh.faces_of(cell)) (at(face).is_inner() ? inner_ : facets_).push_back(face);
   }
 
-  std::optional<Worth> worth() {
+  std::optional<Cost> cost() {
     if (!is_allowed() || !is_flat()) return std::nullopt;
-    return worth_of_change(mesh_, with_neighbours(mesh_, {cell_}), {}, [&] { return make(); });
+    return cost_of_change(mesh_, with_neighbours(mesh_, {cell_}), {}, [&] { return make(); });
   }
 
   bool make() {
@@ -38,7 +38,7 @@ class Leaver {
     }
     for (const std::int32_t face : facets_) mesh_.remove_face(face);
     mesh_.set_faces(cell_, {});
-    // Their shapes are the same, but they are judged again.
+    // Their shapes stay the same, but measuring notes them as changed, so that refused_after() judges them again.
     for (const std::int32_t face : inner_) mesh_.measure_cell(at(face).owner);
     return true;
   }
@@ -57,33 +57,33 @@ class Leaver {
     return stays_manifold() && cells_stay_joined();
   }
 
-  // 3 V / A is the height of a tet over the facet that is left of three, and the distance of the edge that goes from
-  // the one that comes.
+  // Three times the volume by the area of the facets is the height. For a tet with three facets this is its height over
+  // the fourth face; with two, the distance between the edge of the boundary that goes and the one that comes.
   bool is_flat() const {
     Vec3 area{};
     for (const std::int32_t face : facets_) area += mesh_.area(face, cell_);
     const std::vector<Vertex> loop = loop_around(loops_of(facets_));
     if (loop.empty()) return false;
     double length = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      length += norm(mesh_.mesh().points[loop[i]] - mesh_.mesh().points[loop[(i + 1) % loop.size()]]);
+    for (const auto& [a, b] : edges_of(loop)) length += norm(mesh_.mesh().points[a] - mesh_.mesh().points[b]);
     length /= static_cast<double>(loop.size());
     if (3 * mesh_.volume(cell_) > most_height * length * norm(area)) return false;
     const Vec3 normal = unit(area);
     for (const std::int32_t face : facets_)
       for (const std::int32_t other : facets_)
-        if (dot(unit(mesh_.area(face, cell_)), unit(mesh_.area(other, cell_))) < cosine_of_40) return false;
+        if (dot(unit(mesh_.area(face, cell_)), unit(mesh_.area(other, cell_))) < sharp_edge_cosine) return false;
     for (const std::int32_t face : inner_)
-      if (-dot(unit(mesh_.area(face, cell_)), normal) < cosine_of_35) return false;
+      if (-dot(unit(mesh_.area(face, cell_)), normal) < most_turn_cosine) return false;
     return true;
   }
 
-  // Edges and vertices between the faces that become facets must be inside, and on no surface.
+  // Edges and vertices between the faces that become facets must lie inside and on no surface now: otherwise the
+  // boundary would touch itself there.
   bool stays_manifold() const {
     const std::vector<Vertex> loop = loop_around(loops_of(facets_));
     const std::set<Vertex> rim(loop.begin(), loop.end());
     std::set<std::pair<Vertex, Vertex>> outline;
-    for (std::size_t i = 0; i < loop.size(); ++i) outline.emplace(loop[i], loop[(i + 1) % loop.size()]);
+    for (const auto& [a, b] : edges_of(loop)) outline.emplace(a, b);
     const auto is_inside = [&](auto&& holds) {
       for (const std::int32_t cell : cells_joined_by(mesh_, cell_, holds))
         for (const std::int32_t face : mesh_.faces_of(cell))
@@ -91,8 +91,8 @@ class Leaver {
       return true;
     };
     for (const std::vector<Vertex>& face : loops_of(inner_))
-      for (std::size_t i = 0; i < face.size(); ++i) {
-        const Vertex a = face[i], b = face[(i + 1) % face.size()];
+      for (const auto& edge : edges_of(face)) {
+        const Vertex a = edge.first, b = edge.second;
         // The outline goes round the facets, against these faces.
         if (!outline.contains({b, a}) && !is_inside([&](std::int32_t number) { return has_edge(mesh_, number, a, b); }))
           return false;
@@ -102,7 +102,7 @@ class Leaver {
     return true;
   }
 
-  // No cell behind has all its faces on the boundary then.
+  // Each cell behind keeps a neighbour.
   bool cells_stay_joined() const {
     for (const std::int32_t face : inner_) {
       const std::int32_t behind = at(face).other_cell(cell_);
@@ -129,8 +129,8 @@ class Leaver {
 
 }  // namespace
 
-std::optional<Worth> worth_of_leaving_out(MeasuredMesh& mesh, std::int32_t cell) {
-  return Leaver(mesh, cell).worth();
+std::optional<Cost> cost_of_leaving_out(MeasuredMesh& mesh, std::int32_t cell) {
+  return Leaver(mesh, cell).cost();
 }
 
 bool leave_out(MeasuredMesh& mesh, std::int32_t cell) {

@@ -23,23 +23,22 @@ std::vector<Vertex> loop_from(const MeasuredMesh& mesh, std::int32_t face, std::
 }
 
 std::vector<Vertex> loop_around(const std::vector<std::vector<Vertex>>& faces) {
-  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  std::set<std::pair<Vertex, Vertex>> edges;
   for (const auto& face : faces)
-    for (std::size_t i = 0; i < face.size(); ++i) edges.emplace(face[i], face[(i + 1) % face.size()]);
-  std::map<std::int32_t, std::int32_t> next;
-  std::int32_t first = no_index;
+    for (const auto& [a, b] : edges_of(face)) edges.emplace(a, b);
+  std::map<Vertex, Vertex> next;
+  Vertex first = no_index;
   std::size_t count = 0;
   for (const auto& face : faces)
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const std::int32_t a = face[i], b = face[(i + 1) % face.size()];
+    for (const auto& [a, b] : edges_of(face)) {
       if (edges.contains({b, a})) continue;
       if (!next.emplace(a, b).second) return {};
       if (first == no_index) first = a;
       ++count;
     }
   std::vector<Vertex> loop;
-  for (std::int32_t at = first; loop.size() < count;) {
-    loop.emplace_back(at);
+  for (Vertex at = first; loop.size() < count;) {
+    loop.push_back(at);
     const auto found = next.find(at);
     if (found == next.end()) return {};
     at = found->second;
@@ -63,10 +62,8 @@ bool has_corner(const MeasuredMesh& mesh, std::int32_t face, Vertex vertex) {
 
 bool has_edge(const MeasuredMesh& mesh, std::int32_t face, Vertex a, Vertex b) {
   const auto corners = mesh.mesh().corners_of(mesh.mesh().faces[face]);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vertex p = corners[i], q = corners[(i + 1) % corners.size()];
-    if ((p == a && q == b) || (p == b && q == a)) return true;
-  }
+  for (const auto& [from, to] : edges_of(corners))
+    if ((from == a && to == b) || (from == b && to == a)) return true;
   return false;
 }
 

@@ -10,7 +10,7 @@
 namespace hexpipe::polyhedra {
 namespace {
 
-// Cells have few faces, and faces few corners: these lists hardly ever grow.
+// A list that allocates only when it is long. Cells have few faces, and faces few corners, and millions are measured.
 template <class T>
 class Scratch {
  public:
@@ -39,31 +39,33 @@ Scratch<Vec3> corner_points(const PolyhedralMesh& mesh, const PolyhedralMesh::Fa
   return points;
 }
 
-// A tet whose height is a smaller part of its size counts as turned round: checkMesh wants a positive volume, and
+// A tet that is flatter than this, as a height by a length, counts as inverted: checkMesh wants a positive volume, and
 // rounding must not decide.
 constexpr double least_height = 1e-9;
 
-// Whether the triangle sees the centre behind it from its back, and the one before it, if any, from its front.
-bool sees(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& behind, const Vec3* before) {
+// Whether the tets of a triangle with the centres of the two cells are positive. The triangle's normal points out of
+// the owner; a facet of the boundary has no neighbour.
+bool are_tets_positive(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& owner, const Vec3* neighbour) {
   const Vec3 normal = cross(b - a, c - a);
   const double longest = std::max({norm_squared(b - a), norm_squared(c - b), norm_squared(a - c)});
   const double size = norm(normal);
   if (!(size > least_height * longest)) return false;
-  const auto height = [&](const Vec3& line) { return dot(line, normal) > least_height * size * norm(line); };
-  return height(a - behind) && (before == nullptr || height(*before - a));
+  const auto rises = [&](const Vec3& line) { return dot(line, normal) > least_height * size * norm(line); };
+  return rises(a - owner) && (neighbour == nullptr || rises(*neighbour - a));
 }
 
-// checkMesh takes a face apart in two ways: around its centre, and as a fan from one of its corners, which it may
-// choose.
-bool has_turned_tets(std::span<const Vec3> points, const FaceShape& shape, const Vec3& behind, const Vec3* before) {
+// checkMesh cuts a face into triangles in two ways, both of which need positive tets: around its centre, and as a fan
+// from one of its corners. It looks for a corner that will do.
+bool has_inverted_tets(std::span<const Vec3> points, const FaceShape& shape, const Vec3& owner, const Vec3* neighbour) {
   const std::size_t count = points.size();
-  if (count == 3) return !sees(points[0], points[1], points[2], behind, before);
+  if (count == 3) return !are_tets_positive(points[0], points[1], points[2], owner, neighbour);
   for (std::size_t i = 0; i < count; ++i)
-    if (!sees(points[i], points[(i + 1) % count], shape.centre, behind, before)) return true;
+    if (!are_tets_positive(points[i], points[(i + 1) % count], shape.centre, owner, neighbour)) return true;
   for (std::size_t base = 0; base < count; ++base) {
     bool all = true;
     for (std::size_t i = 1; all && i + 1 < count; ++i)
-      all = sees(points[base], points[(base + i) % count], points[(base + i + 1) % count], behind, before);
+      all =
+          are_tets_positive(points[base], points[(base + i) % count], points[(base + i + 1) % count], owner, neighbour);
     if (all) return false;
   }
   return true;
@@ -97,7 +99,7 @@ MeasuredMesh::MeasuredMesh(PolyhedralMesh& mesh)
   parallel_for(static_cast<std::int64_t>(shapes_.size()), grain,
                [&](std::int64_t face) { measure_face(static_cast<std::int32_t>(face)); });
   parallel_for(static_cast<std::int64_t>(cells_.size()), grain,
-               [&](std::int64_t cell) { measure_first(static_cast<std::int32_t>(cell)); });
+               [&](std::int64_t cell) { update_shape(static_cast<std::int32_t>(cell)); });
 }
 
 Refusals MeasuredMesh::refusals_of_cell(std::int32_t cell) const {
@@ -121,14 +123,17 @@ double MeasuredMesh::trouble(std::int32_t cell) const {
     if (mesh_.faces[face].is_inner()) inner.add(shapes_[face].area);
   }
   const std::span<const std::int32_t> faces = faces_of(cell);
+  // Each face's centre has to lie behind the planes of the others, as is_convex() has it; a little further than it asks
+  // for, so that the descent does not end on the limit.
+  constexpr double clearly = 1e-5, positive = 1e-12;
   double trouble = 0;
   for (std::size_t i = 0; i < faces.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const Vec3 line = unit(shapes_[faces[i]].centre - shapes_[faces[k]].centre);
       trouble +=
-          std::max(0.0, dot(line, normals.span()[k]) + 1e-5) + std::max(0.0, 1e-5 - dot(line, normals.span()[i]));
+          std::max(0.0, dot(line, normals.span()[k]) + clearly) + std::max(0.0, clearly - dot(line, normals.span()[i]));
     }
-  return trouble + std::max(0.0, 1 - cell_determinant(inner.span()) / low_determinant) + 1e-12;
+  return trouble + std::max(0.0, 1 - cell_determinant(inner.span()) / low_determinant) + positive;
 }
 
 Refusals MeasuredMesh::refusals_of_face(std::int32_t number) const {
@@ -140,7 +145,7 @@ Refusals MeasuredMesh::refusals_of_face(std::int32_t number) const {
   const Scratch<Vec3> scratch = corner_points(mesh_, face);
   const std::span<const Vec3> points = scratch.span();
   Refusals result = 0;
-  if (has_turned_tets(points, shape, owner.centre, neighbour ? &neighbour->centre : nullptr)) result |= face_tets;
+  if (has_inverted_tets(points, shape, owner.centre, neighbour ? &neighbour->centre : nullptr)) result |= face_tets;
   if (face_skewness(points, shape, owner.centre, neighbour ? &neighbour->centre : nullptr) > most_skewness)
     result |= skewness;
   if (neighbour == nullptr) return result;
@@ -256,10 +261,10 @@ void MeasuredMesh::measure_cell(std::int32_t cell) {
     is_touched_[cell] = 1;
     touched_.push_back(cell);
   }
-  measure_first(cell);
+  update_shape(cell);
 }
 
-void MeasuredMesh::measure_first(std::int32_t cell) {
+void MeasuredMesh::update_shape(std::int32_t cell) {
   Scratch<FaceShape> faces;
   for (const std::int32_t face : faces_of(cell)) faces.add({area(face, cell), shapes_[face].centre});
   const CellShape shape = cell_shape(faces.span());

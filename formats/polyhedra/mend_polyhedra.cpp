@@ -17,15 +17,15 @@
 namespace hexpipe::polyhedra {
 namespace {
 
-constexpr double most_hexes = 0.001;  // that may become polyhedra, by volume
+constexpr double most_hexes = 0.001;  // the share of the volume in hexes that may become polyhedra
 
-// Mends one cell or face after the other.
+// Mends one cell or face after the other, by the list in the header.
 class Mender {
  public:
   Mender(MeasuredMesh& mesh, double volume, MendCounts& counts)
       : mesh_(mesh), volume_(volume), hexes_left_(most_hexes * volume), counts_(counts) {}
 
-  // Returns what is left.
+  // Returns what is still wrong.
   MeasuredMesh::Refused run(MeasuredMesh::Refused refused) {
     for (const Pass& pass : passes) {
       if (refused.none()) break;
@@ -37,6 +37,7 @@ class Mender {
   }
 
  private:
+  // What most cells need is quick. Only what is left is worth a longer search, and then hexes.
   struct Pass {
     bool thorough, with_hexes;
     ClimbEffort climbing;
@@ -57,31 +58,31 @@ class Mender {
 
   bool is_wrong(std::int32_t cell) const { return mesh_.is_alive(cell) && (mesh_.refusals_of_cell(cell) & wrong) != 0; }
 
-  // Cells of which one is wrong, or whose face is. The least change goes first.
+  // One wrong cell, or the one or two cells at a wrong face.
   void mend(std::span<const std::int32_t> cells) {
     if (!mend_at_once(cells)) leave_out_and_mend(cells);
   }
 
   bool mend_at_once(std::span<const std::int32_t> cells) {
-    const double most = pass_.with_hexes ? std::max(0.0, hexes_left_) : 0;
+    const double hexes_now = pass_.with_hexes ? std::max(0.0, hexes_left_) : 0;
     if (move(cells)) return true;
-    std::vector<Merge> nearly;
-    const std::optional<Merge> merge = best_merge(mesh_, cells, pass_.thorough, most, nearly);
-    if (merge && merge->worth.hex_volume == 0) return keep(*merge);
+    std::vector<Merge> near_misses;
+    const std::optional<Merge> merge = best_merge(mesh_, cells, pass_.thorough, hexes_now, near_misses);
+    if (merge && merge->cost.hex_volume_lost == 0) return keep(*merge);
     std::optional<Cut> cut;
     for (const std::int32_t cell : cells) {
-      const auto one = best_cut(mesh_, cell, most);
-      if (one && (!cut || one->worth < cut->worth)) cut = one;
+      const auto one = best_cut(mesh_, cell, hexes_now);
+      if (one && (!cut || one->cost < cut->cost)) cut = one;
     }
-    if (cut && (!merge || cut->worth.hex_volume < merge->worth.hex_volume)) return keep(*cut);
+    if (cut && (!merge || cut->cost.hex_volume_lost < merge->cost.hex_volume_lost)) return keep(*cut);
     if (merge) return keep(*merge);
-    return leave_one_out(cells) || climb_alone(cells) || merge_and_climb(nearly);
+    return leave_one_out(cells) || climb_alone(cells) || merge_and_climb(near_misses);
   }
 
   bool leave_one_out(std::span<const std::int32_t> cells) {
     for (const std::int32_t cell : cells) {
-      const auto worth = worth_of_leaving_out(mesh_, cell);
-      if (!worth || worth->refused >= 0) continue;
+      const auto cost = cost_of_leaving_out(mesh_, cell);
+      if (!cost || cost->wrong_added >= 0) continue;
       count_out(cell, mesh_.volume(cell));
       leave_out(mesh_, cell);
       return true;
@@ -89,11 +90,11 @@ class Mender {
     return false;
   }
 
-  // A cell behind may be wrong in its turn, and mended.
+  // If it leaves no more wrong than before, and one of the cells behind it can be mended at once.
   bool leave_out_and_mend(std::span<const std::int32_t> cells) {
     for (const std::int32_t cell : cells) {
-      const auto worth = worth_of_leaving_out(mesh_, cell);
-      if (!worth || worth->refused > 0) continue;
+      const auto cost = cost_of_leaving_out(mesh_, cell);
+      if (!cost || cost->wrong_added > 0) continue;
       const CellSet around = with_neighbours(mesh_, {cell});
       MeasuredMesh::Undo undo(mesh_, around);
       const double volume = mesh_.volume(cell);
@@ -111,17 +112,17 @@ class Mender {
   void count_out(std::int32_t cell, double volume) {
     ++counts_.left_out;
     counts_.left_out_volume += volume / volume_;
-    if (is_polyhedron_.erase(cell) > 0) --counts_.into;
+    if (polyhedra_.erase(cell) > 0) --counts_.polyhedra;
   }
 
   bool move(std::span<const std::int32_t> cells) {
     std::optional<Move> best;
     for (const std::int32_t cell : cells) {
       const auto one = best_move(mesh_, cell);
-      if (one && (!best || one->worth < best->worth)) best = one;
+      if (one && (!best || one->cost < best->cost)) best = one;
     }
     if (!best) return false;
-    ++counts_.moved;
+    ++counts_.moves;
     move_vertex(mesh_, *best);
     return true;
   }
@@ -129,20 +130,20 @@ class Mender {
   bool climb_alone(std::span<const std::int32_t> cells) {
     for (const std::int32_t cell : cells)
       if (const std::int64_t steps = climb(mesh_, cell, 0, pass_.climbing); steps > 0) {
-        counts_.moved += steps;
+        counts_.moves += steps;
         return true;
       }
     return false;
   }
 
-  // Polyhedra that are nearly good, and then moves.
-  bool merge_and_climb(const std::vector<Merge>& nearly) {
-    for (const Merge& one : nearly) {
+  // A polyhedron that is nearly good becomes good if its vertices move.
+  bool merge_and_climb(const std::vector<Merge>& near_misses) {
+    for (const Merge& one : near_misses) {
       MeasuredMesh::Undo undo(mesh_, with_neighbours(mesh_, one.cells));
       merge_cells(mesh_, one.cells);
-      const std::int64_t steps = climb(mesh_, one.cells[0], one.worth.refused, pass_.climbing);
+      const std::int64_t steps = climb(mesh_, one.cells[0], one.cost.wrong_added, pass_.climbing);
       if (steps > 0) {
-        counts_.moved += steps;
+        counts_.moves += steps;
         note(one);
         return true;
       }
@@ -159,28 +160,29 @@ class Mender {
 
   void note(const Merge& merge) {
     for (const std::int32_t cell : merge.cells) {
-      if (is_polyhedron_.erase(cell) > 0)
-        --counts_.into;
+      if (polyhedra_.erase(cell) > 0)
+        --counts_.polyhedra;
       else
         ++counts_.merged;
     }
-    ++counts_.into;
-    is_polyhedron_.insert(merge.cells[0]);
-    hexes_left_ -= merge.worth.hex_volume;
+    ++counts_.polyhedra;
+    polyhedra_.insert(merge.cells[0]);
+    hexes_left_ -= merge.cost.hex_volume_lost;
   }
 
   bool keep(const Cut& cut) {
     ++counts_.cut;
-    hexes_left_ -= cut.worth.hex_volume;
+    hexes_left_ -= cut.cost.hex_volume_lost;
     cut_cell(mesh_, cut);
     return true;
   }
 
   MeasuredMesh& mesh_;
-  double volume_, hexes_left_;
+  double volume_;      // of the mesh
+  double hexes_left_;  // volume of hexes that may still become polyhedra
   Pass pass_ = passes[0];
   MendCounts& counts_;
-  std::set<std::int32_t> is_polyhedron_;
+  std::set<std::int32_t> polyhedra_;  // cells that others merged into
 };
 
 double volume_of(const MeasuredMesh& mesh, bool hexes_alone) {
@@ -215,8 +217,8 @@ std::string summary(const MendCounts& counts) {
         "for OpenFOAM's checkMesh {} cells are halved, {} cut, {} merged into {} polyhedra, {} left out "
         "({:.4f} % of the volume), and {} vertices moved; hexes are "
         "{:.2f} % of the volume, {:.2f} before",
-        counts.halved, counts.cut, counts.merged, counts.into, counts.left_out, 100 * counts.left_out_volume,
-        counts.moved, 100 * counts.hexes, 100 * counts.hexes_before);
+        counts.halved, counts.cut, counts.merged, counts.polyhedra, counts.left_out, 100 * counts.left_out_volume,
+        counts.moves, 100 * counts.hexes, 100 * counts.hexes_before);
   if (counts.refused > 0)
     line +=
         fmt::format("{}checkMesh finds fault with {} cells and faces{}", line.empty() ? "" : "; ", counts.refused,

@@ -1,6 +1,5 @@
 #pragma once
-// Polyhedra in place of cells that OpenFOAM's checkMesh counts as wrong, so that it has nothing to say against the
-// mesh.
+// Mends a mesh until OpenFOAM's checkMesh says "Mesh OK", by polyhedra in place of cells that it counts as wrong.
 
 #include <array>
 #include <cstdint>
@@ -20,32 +19,37 @@ struct LayerCell {
 };
 
 struct MendCounts {
-  std::int64_t halved = 0, cut = 0;              // cells that were halved in sheets, and that were cut alone
-  std::int64_t merged = 0, into = 0;             // cells that became parts of polyhedra; the number of these polyhedra
-  std::int64_t moved = 0;                        // vertices
+  std::int64_t halved = 0;                       // cells, with the whole of their sheets
+  std::int64_t cut = 0;                          // cells, each alone
+  std::int64_t merged = 0, polyhedra = 0;        // cells that merged, and into how many polyhedra
+  std::int64_t moves = 0;                        // of vertices
   std::int64_t left_out = 0;                     // flat cells at the boundary
-  double left_out_volume = 0;                    // their share of the volume
-  double hexes_before = 0, hexes = 0;            // their share of the volume
+  double left_out_volume = 0;                    // their share of the volume, from 0 to 1
+  double hexes_before = 0, hexes = 0;            // shares of the volume in hexes, from 0 to 1
   std::int64_t refused_before = 0, refused = 0;  // cells and faces with something wrong
 
-  bool changed() const { return halved + cut + merged + left_out + moved > 0; }
+  bool changed() const { return halved + cut + merged + left_out + moves > 0; }
 };
 
-// Halves hexes and prisms of a single layer between two facets of the boundary, whose determinant is low, and with them
-// all of the sheet in which edges are halved: hexes stay hexes. Where the sheet ends, the two halves of a side belong
-// to one cell, and bend a little there so that this cell is convex. Sheets that meet themselves stay whole. Returns how
-// many cells were halved.
+// Halves hexes and prisms of a single layer between two facets of the boundary, whose determinant is low. All cells of
+// the sheet are halved that share a halved edge, so hexes stay hexes. At the end of a sheet, the two halves of a side
+// belong to one cell that stays whole; there the side bends a little, so that this cell is convex. Sheets that meet
+// themselves stay whole. Returns the number of halved cells.
 std::int64_t split_single_layers(MeasuredMesh& mesh, std::vector<LayerCell> cells,
                                  const MeasuredMesh::Refused& refused);
 
-// The same; and then, for each cell that is wrong or has such a face, the first of these that helps: a vertex moves;
-// cells merge to a polyhedron; the cell is cut in two; it is left out, where it is flat at the boundary; several
-// vertices move, of the cell or of a polyhedron around it; it is left out and a cell behind it is mended.
-// Hexes become polyhedra only if nothing else helps, up to a thousandth of the volume. Regions, facets between cells,
-// and borders between surfaces stay. `cells` has all hexes and prisms.
+// Calls split_single_layers(), and then tries for each cell that is wrong, or has a wrong face, until one helps:
+//   1. a vertex moves
+//   2. cells merge to a polyhedron without hexes
+//   3. the cell is cut in two, or cells merge with hexes, whichever takes less volume of hexes
+//   4. the cell is left out, if it is flat and at the boundary
+//   5. several vertices move, of the cell or of a polyhedron around it
+//   6. the cell is left out, and a cell behind it is mended by 1 to 5
+// Hexes become polyhedra only in the last of three passes, up to a thousandth of the volume. Regions, tagged facets
+// between cells, and borders between surfaces stay. `cells` has all hexes and prisms.
 //
-// Cells get new numbers if something has changed: halves follow each other, and a polyhedron stands where the first of
-// its cells stood.
+// If anything has changed, cells have new numbers: halves follow each other, and a polyhedron has the place of the
+// first of its cells.
 MendCounts mend_polyhedra(PolyhedralMesh& mesh, const std::vector<LayerCell>& cells);
 
 // A line for the user that says what was done, and what is left; empty if nothing was wrong.

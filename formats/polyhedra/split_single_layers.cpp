@@ -1,8 +1,14 @@
-// A hex between two facets of the boundary has neighbours in two directions alone: its determinant is next to 0. Halved
-// at mid height, each half has a neighbour in the third one, too.
+// A hex between two facets of the boundary has neighbours in two directions alone, so its determinant is nearly 0. Cut
+// at mid height, each half has a neighbour in the third direction, too: the other half.
+//
+// The edges along that direction get a vertex in the middle. All hexes and prisms around such an edge are halved as
+// well, then those around their edges in the same direction, and so on: together they are a sheet. It ends at the
+// boundary and at cells that have no opposite edge, tets for example. These stay whole, and two faces of theirs come
+// where one was.
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <set>
 #include <span>
 
@@ -14,26 +20,46 @@
 namespace hexpipe::polyhedra {
 namespace {
 
-// How far the middle of an edge moves, by the edge's length: enough to count as an angle, and too little to matter.
+// How far the middle of an edge moves at the end of a sheet, by the edge's length: enough to count as an angle, and too
+// little to matter.
 constexpr double bend = 1e-3;
 
-// A direction of a cell: the edges along it, from one of two opposite faces to the other.
+// A direction of a hex or prism: the edges that lead from a face to the opposite one.
 struct Direction {
   std::array<LocalEdge, 4> edges;
-  std::size_t count;
+  std::size_t count;  // 4, or 3 from triangle to triangle
+
+  std::span<const LocalEdge> all() const { return std::span(edges).first(count); }
 };
-constexpr std::array<Direction, 3> hex_directions{{{{{{0, 4}, {1, 5}, {2, 6}, {3, 7}}}, 4},
-                                                   {{{{0, 1}, {3, 2}, {7, 6}, {4, 5}}}, 4},
-                                                   {{{{0, 3}, {4, 7}, {5, 6}, {1, 2}}}, 4}}};
-constexpr std::array<Direction, 1> prism_directions{{{{{{0, 3}, {1, 4}, {2, 5}, {0, 0}}}, 3}}};
+
+// The direction that begins at a face with corner 0, with the edges in the order of its corners as seen from inside,
+// from corner 0 on.
+template <class Topology, std::size_t N>
+constexpr Direction direction_from(const std::array<std::uint8_t, N>& face) {
+  const auto is_in_face = [&](std::uint8_t corner) { return std::ranges::find(face, corner) != face.end(); };
+  const auto start = static_cast<std::size_t>(std::ranges::find(face, std::uint8_t{0}) - face.begin());
+  Direction direction{{}, N};
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::uint8_t corner = face[(start + N - i) % N];
+    for (const LocalEdge& edge : Topology::edges)
+      for (const std::size_t end : {0, 1})
+        if (edge[end] == corner && !is_in_face(edge[1 - end])) direction.edges[i] = {corner, edge[1 - end]};
+  }
+  return direction;
+}
+
+constexpr std::array hex_directions{direction_from<HexTopology>(HexTopology::quads[0]),
+                                    direction_from<HexTopology>(HexTopology::quads[5]),
+                                    direction_from<HexTopology>(HexTopology::quads[2])};
+constexpr std::array prism_directions{direction_from<PrismTopology>(PrismTopology::triangles[0])};
 
 std::span<const Direction> directions_of(CellKind kind) {
   if (kind == CellKind::hex) return hex_directions;
   return prism_directions;
 }
 
-// A cell that is to be halved: its corners at the lower end of the edges, in the order of the edges, and at the upper.
-struct Column {
+// A cell that is to be halved: the corners at the lower and at the upper ends of its edges, in the order of the edges.
+struct HalvedCell {
   std::int32_t cell;
   std::vector<Vertex> low, high;
 };
@@ -49,112 +75,106 @@ class Splitter {
   // Returns how many cells were halved.
   std::int64_t split(const std::vector<std::int32_t>& refused) {
     choose_sheets(refused);
-    if (columns_.empty()) return 0;
+    if (halved_.empty()) return 0;
     halve_edges();
     halve_cells();
-    return static_cast<std::int64_t>(columns_.size());
+    return static_cast<std::int64_t>(halved_.size());
   }
 
  private:
+  // Cells are numbers in cells_.
   struct Sheet {
-    std::vector<std::pair<std::int32_t, std::uint8_t>> cells;  // in cells_, with their directions
-    std::vector<std::int32_t> touched;                         // prisms with such an edge in a triangle
-    bool is_simple = true;                                     // it passes no cell twice
+    std::map<std::int32_t, int> directions;  // of the cells that are halved
+    std::set<std::int32_t> touched;          // prisms with a halved edge in a triangle, which stay whole
+    bool is_simple = true;                   // it passes each cell once, and touches none that it passes
   };
 
+  // The sheets of the refused cells, unless they are not simple or meet a sheet of this round.
   void choose_sheets(const std::vector<std::int32_t>& refused) {
     std::vector<std::int32_t> number_of(mesh_.cell_count(), no_index);
     for (std::size_t i = 0; i < cells_.size(); ++i) number_of[cells_[i].cell] = static_cast<std::int32_t>(i);
     at_vertices_ = VertexItems(mesh_.mesh().points.size(), [&](auto&& visit) {
       for (std::size_t i = 0; i < cells_.size(); ++i)
-        for (std::size_t k = 0; k < corner_count_of(cells_[i]); ++k)
-          visit(cells_[i].corners[k], static_cast<std::int32_t>(i));
+        for (const Vertex v : corners_of(cells_[i])) visit(v, static_cast<std::int32_t>(i));
     });
-    column_of_.assign(mesh_.cell_count(), no_index);
+    halved_of_.assign(mesh_.cell_count(), no_index);
     std::vector<std::uint8_t> is_taken(cells_.size());
     for (const std::int32_t cell : refused) {
       const std::int32_t number = number_of[cell];
       if (number == no_index || (mesh_.refusals_of_cell(cell) & determinant) == 0) continue;
       const auto directions = directions_of(cells_[number].kind);
       for (std::size_t d = 0; d < directions.size(); ++d) {
-        if (column_of_[cell] != no_index || !is_between_facets(cells_[number], directions[d])) continue;
-        const Sheet sheet = sheet_of(number, d);
-        const auto free = [&](std::int32_t i) { return is_taken[i] == 0; };
-        if (!sheet.is_simple || !std::ranges::all_of(sheet.touched, free) ||
-            !std::ranges::all_of(sheet.cells, [&](const auto& at) { return free(at.first); }))
+        if (halved_of_[cell] != no_index || !is_between_facets(cells_[number], directions[d])) continue;
+        const Sheet sheet = sheet_of(number, static_cast<int>(d));
+        const auto is_free = [&](std::int32_t i) { return is_taken[i] == 0; };
+        if (!sheet.is_simple || !std::ranges::all_of(sheet.touched, is_free) ||
+            !std::ranges::all_of(sheet.directions | std::views::keys, is_free))
           continue;
         for (const std::int32_t i : sheet.touched) is_taken[i] = 1;
-        for (const auto& [i, direction] : sheet.cells) is_taken[i] = 1, add_column(i, direction);
+        for (const auto& [i, direction] : sheet.directions) is_taken[i] = 1, add_halved(i, direction);
       }
     }
   }
 
-  static std::size_t corner_count_of(const LayerCell& at) { return at.kind == CellKind::hex ? 8 : 6; }
+  static std::span<const Vertex> corners_of(const LayerCell& at) {
+    return std::span(at.corners).first(static_cast<std::size_t>(corner_count(at.kind)));
+  }
 
-  void add_column(std::int32_t number, std::size_t d) {
+  void add_halved(std::int32_t number, int d) {
     const LayerCell& at = cells_[number];
-    const Direction& direction = directions_of(at.kind)[d];
-    Column column{at.cell, {}, {}};
-    for (std::size_t i = 0; i < direction.count; ++i) {
-      column.low.push_back(at.corners[direction.edges[i][0]]);
-      column.high.push_back(at.corners[direction.edges[i][1]]);
+    HalvedCell halved{at.cell, {}, {}};
+    for (const LocalEdge& edge : directions_of(at.kind)[d].all()) {
+      halved.low.push_back(at.corners[edge[0]]);
+      halved.high.push_back(at.corners[edge[1]]);
     }
-    column_of_[at.cell] = static_cast<std::int32_t>(columns_.size());
-    columns_.push_back(std::move(column));
+    halved_of_[at.cell] = static_cast<std::int32_t>(halved_.size());
+    halved_.push_back(std::move(halved));
     numbers_.push_back(static_cast<std::size_t>(number));
   }
 
-  // Hexes and prisms that are passed when the edges of a cell along a direction are halved: edges that are opposite in
-  // a quad of a hex, or go along a prism, are halved together.
-  Sheet sheet_of(std::int32_t start, std::size_t direction) const {
+  // The sheet that a cell is halved with in this direction.
+  Sheet sheet_of(std::int32_t start, int direction) const {
     Sheet sheet;
-    std::map<std::int32_t, std::uint8_t> passed{{start, static_cast<std::uint8_t>(direction)}};
-    std::set<std::int32_t> touched;
+    sheet.directions.emplace(start, direction);
     KeySet<2> seen;
     std::vector<std::int32_t> next{start};
     while (!next.empty()) {
       const std::int32_t number = next.back();
       next.pop_back();
       const LayerCell& at = cells_[number];
-      const Direction& along = directions_of(at.kind)[passed.at(number)];
-      for (std::size_t i = 0; i < along.count; ++i) {
-        const auto key = edge_key(at.corners[along.edges[i][0]], at.corners[along.edges[i][1]]);
+      for (const LocalEdge& edge : directions_of(at.kind)[sheet.directions.at(number)].all()) {
+        const auto key = edge_key(at.corners[edge[0]], at.corners[edge[1]]);
         if (!seen.insert(key).second) continue;
         for (const std::int32_t other : at_vertices_.at(key[0])) {
-          const auto place = place_of_edge(cells_[other], key);
-          if (place == Place::outside) continue;
-          if (place == Place::in_triangle) {
-            touched.insert(other);
+          const int found = direction_of_edge(cells_[other], key);
+          if (found == not_an_edge) continue;
+          if (found == in_triangle) {
+            sheet.touched.insert(other);
             continue;
           }
-          const auto [found, is_new] = passed.try_emplace(other, static_cast<std::uint8_t>(place));
+          const auto [at_other, is_new] = sheet.directions.try_emplace(other, found);
           if (is_new) next.push_back(other);
-          if (found->second != static_cast<std::uint8_t>(place)) sheet.is_simple = false;
+          if (at_other->second != found) sheet.is_simple = false;
         }
       }
     }
-    for (const std::int32_t number : touched)
-      if (passed.contains(number)) sheet.is_simple = false;
-    sheet.cells.assign(passed.begin(), passed.end());
-    sheet.touched.assign(touched.begin(), touched.end());
+    for (const std::int32_t number : sheet.touched)
+      if (sheet.directions.contains(number)) sheet.is_simple = false;
     return sheet;
   }
 
-  // An edge's direction in a cell.
-  enum class Place : std::uint8_t { outside = 255, in_triangle = 254 };
-  static Place place_of_edge(const LayerCell& at, const VertexKey<2>& key) {
+  // The direction of a cell that an edge belongs to, or one of the numbers below 0.
+  static constexpr int not_an_edge = -1, in_triangle = -2;
+  static int direction_of_edge(const LayerCell& at, const VertexKey<2>& key) {
+    const auto is_key = [&](const LocalEdge& edge) {
+      return edge_key(at.corners[edge[0]], at.corners[edge[1]]) == key;
+    };
     const auto directions = directions_of(at.kind);
     for (std::size_t d = 0; d < directions.size(); ++d)
-      for (std::size_t i = 0; i < directions[d].count; ++i)
-        if (edge_key(at.corners[directions[d].edges[i][0]], at.corners[directions[d].edges[i][1]]) == key)
-          return static_cast<Place>(d);
-    const auto corners = std::span(at.corners).first(corner_count_of(at));
-    const bool both =
-        std::ranges::find(corners, key[0]) != corners.end() && std::ranges::find(corners, key[1]) != corners.end();
-    if (!both || at.kind == CellKind::hex) return Place::outside;
-    for (const auto& edge : PrismTopology::edges)
-      if (edge_key(at.corners[edge[0]], at.corners[edge[1]]) == key) return Place::in_triangle;
-    return Place::outside;
+      if (std::ranges::any_of(directions[d].all(), is_key)) return static_cast<int>(d);
+    // Each edge of a hex belongs to a direction.
+    if (at.kind == CellKind::hex) return not_an_edge;
+    return std::ranges::any_of(PrismTopology::edges, is_key) ? in_triangle : not_an_edge;
   }
 
   // Whether the faces at both ends of the direction are on the boundary.
@@ -166,42 +186,44 @@ class Splitter {
       for (const std::size_t end : {0, 1}) {
         std::size_t found = 0;
         for (const Vertex v : mesh_.mesh().corners_of(face))
-          for (std::size_t i = 0; i < direction.count; ++i) found += v == at.corners[direction.edges[i][end]] ? 1 : 0;
+          for (const LocalEdge& edge : direction.all()) found += v == at.corners[edge[end]] ? 1 : 0;
         ends += found == direction.count && face.count == static_cast<std::int32_t>(found) ? 1 : 0;
       }
     }
     return ends == 2;
   }
 
-  const Column* column_of(std::int32_t cell) const {
-    if (static_cast<std::size_t>(cell) >= column_of_.size() || column_of_[cell] == no_index) return nullptr;
-    return &columns_[static_cast<std::size_t>(column_of_[cell])];
+  // nullptr: the cell stays whole.
+  const HalvedCell* halved(std::int32_t cell) const {
+    if (static_cast<std::size_t>(cell) >= halved_of_.size() || halved_of_[cell] == no_index) return nullptr;
+    return &halved_[static_cast<std::size_t>(halved_of_[cell])];
   }
 
-  // A side of a column whose other cell stays whole: its normal, towards that cell, the edges that it halves, and how
-  // far their middles have to move together.
+  // A side of a halved cell whose other cell stays whole.
   struct OpenSide {
     std::int32_t face;
-    Vec3 normal;
-    std::array<VertexKey<2>, 2> edges;
-    double goal = 1;
+    Vec3 normal;                        // towards the cell that stays whole
+    std::array<VertexKey<2>, 2> edges;  // those of the side that are halved
+    double goal = 1;                    // how far both middles together have to move against the normal, by `bend`
   };
 
+  // The middle of a halved edge.
   struct Middle {
-    Vec3 move{};                // by the length of its edge, in thousandths
+    Vec3 move{};                // by the length of its edge times `bend`
     std::vector<Vec3> along{};  // normals of the boundary, which it does not leave
     Vertex vertex = no_index;
   };
 
+  // Adds the middles of all edges, moved so that open sides bend.
   void halve_edges() {
-    for (const Column& column : columns_)
-      for (std::size_t i = 0; i < column.low.size(); ++i) middles_.try_emplace(edge_key(column.low[i], column.high[i]));
+    for (const HalvedCell& cell : halved_)
+      for (std::size_t i = 0; i < cell.low.size(); ++i) middles_.try_emplace(edge_key(cell.low[i], cell.high[i]));
     is_end_.assign(mesh_.mesh().points.size(), 0);
     for (const auto& [key, middle] : middles_)
       for (const Vertex v : key) is_end_[v] = 1;
     std::vector<OpenSide> sides;
     for (std::size_t i = 0; i < mesh_.mesh().faces.size(); ++i) note_side(static_cast<std::int32_t>(i), sides);
-    // Warped sides need more.
+    // Warped sides need more than flat ones.
     constexpr int most_doublings = 7;
     for (int i = 0; i <= most_doublings; ++i) {
       bend_sides(sides);
@@ -227,9 +249,9 @@ class Splitter {
     const auto corners = mesh_.mesh().corners_of(mesh_.mesh().faces[side.face]);
     std::array<std::vector<Vec3>, 2> halves;
     std::size_t half = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      halves[half].push_back(mesh_.mesh().points[corners[i]]);
-      const auto key = edge_key(corners[i], corners[(i + 1) % corners.size()]);
+    for (const auto& [a, b] : edges_of(corners)) {
+      halves[half].push_back(mesh_.mesh().points[a]);
+      const auto key = edge_key(a, b);
       if (key != side.edges[0] && key != side.edges[1]) continue;
       const Vec3 place = place_of(key, middles_.at(key));
       halves[half].push_back(place);
@@ -243,6 +265,7 @@ class Splitter {
     return dot(line, unit(one.area)) * sign < -clearly && dot(line, unit(two.area)) * sign > clearly;
   }
 
+  // What a face says of the middles on it: a facet of the boundary, where they stay, or an open side.
   void note_side(std::int32_t number, std::vector<OpenSide>& sides) {
     const PolyhedralMesh::Face& face = mesh_.mesh().faces[number];
     if (face.owner == no_index) return;
@@ -254,18 +277,18 @@ class Splitter {
       for (const auto& key : edges) middles_.at(key).along.push_back(normal);
       return;
     }
-    const Column *const one = column_of(face.owner), *const two = column_of(face.neighbour);
+    const HalvedCell *const one = halved(face.owner), *const two = halved(face.neighbour);
     if ((one == nullptr) == (two == nullptr)) return;
-    const Column& column = one != nullptr ? *one : *two;
-    std::erase_if(edges, [&](const VertexKey<2>& key) { return !is_along(column, key[0], key[1]); });
+    const HalvedCell& cell = one != nullptr ? *one : *two;
+    std::erase_if(edges, [&](const VertexKey<2>& key) { return !is_along(cell, key[0], key[1]); });
     if (edges.size() == 2) sides.push_back({number, one != nullptr ? normal : -normal, {edges[0], edges[1]}});
   }
 
-  // Moves the middles so that each open side bends into its column: its two middles together by its goal. A side that
-  // lacks something moves both by half of that, again and again.
+  // Moves the middles so that each open side bends into its halved cell, its two middles together by its goal. A side
+  // that lacks something moves both by half of that. This is repeated, for a middle may be in several sides.
   void bend_sides(const std::vector<OpenSide>& sides) {
     constexpr int most_rounds = 200;
-    constexpr double most = 100;
+    constexpr double most = 100;  // a tenth of the edge
     bool all = false;
     for (int round = 0; round < most_rounds && !all; ++round) {
       all = true;
@@ -286,19 +309,17 @@ class Splitter {
   // visit(key) for the edges of a face that are halved.
   template <class Visit>
   void for_each_halved(const PolyhedralMesh::Face& face, Visit&& visit) const {
-    const auto corners = mesh_.mesh().corners_of(face);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vertex a = corners[i], b = corners[(i + 1) % corners.size()];
+    for (const auto& [a, b] : edges_of(mesh_.mesh().corners_of(face))) {
       if (is_end_[a] == 0 || is_end_[b] == 0) continue;
       if (const auto key = edge_key(a, b); middles_.contains(key)) visit(key);
     }
   }
 
   void halve_cells() {
-    for (const Column& column : columns_) upper_.push_back(mesh_.add_cell_after(column.cell));
+    for (const HalvedCell& cell : halved_) upper_.push_back(mesh_.add_cell_after(cell.cell));
     const std::size_t count = mesh_.mesh().faces.size();
     for (std::size_t i = 0; i < count; ++i) halve_face(static_cast<std::int32_t>(i));
-    for (std::size_t i = 0; i < columns_.size(); ++i) add_middle(i);
+    for (std::size_t i = 0; i < halved_.size(); ++i) add_middle_face(i);
     for (const std::int32_t cell : whole_) {
       std::vector<std::int32_t> faces(mesh_.faces_of(cell).begin(), mesh_.faces_of(cell).end());
       if (const auto more = more_faces_.find(cell); more != more_faces_.end())
@@ -310,107 +331,127 @@ class Splitter {
     std::erase_if(cells_, [&](const LayerCell& at) { return whole_.contains(at.cell); });
   }
 
-  // The half of the column that the corner belongs to; the cell itself if it is not halved.
+  // The half of a cell that the corner belongs to; the cell itself if it stays whole.
   std::int32_t half_of(std::int32_t cell, Vertex corner) const {
-    const Column* const column = cell == no_index ? nullptr : column_of(cell);
-    return column == nullptr || holds(column->low, corner) ? cell
-                                                           : upper_[static_cast<std::size_t>(column - columns_.data())];
+    const HalvedCell* const at = cell == no_index ? nullptr : halved(cell);
+    return at == nullptr || holds(at->low, corner) ? cell : upper_[static_cast<std::size_t>(at - halved_.data())];
   }
 
+  // A face's loop with the middles of its edges, and where in it those lie at which the face is cut in two.
+  struct HalvedLoop {
+    std::vector<Vertex> loop;
+    std::vector<std::size_t> cuts;  // two or none
+    bool has_middles = false;
+  };
+  HalvedLoop loop_with_middles(const PolyhedralMesh::Face& face) const {
+    const HalvedCell* const one = halved(face.owner);
+    const HalvedCell* const two = face.is_inner() ? halved(face.neighbour) : nullptr;
+    HalvedLoop result;
+    for (const auto& [a, b] : edges_of(mesh_.mesh().corners_of(face))) {
+      result.loop.push_back(a);
+      if (is_end_[a] == 0 || is_end_[b] == 0) continue;
+      const auto middle = middles_.find(edge_key(a, b));
+      if (middle == middles_.end()) continue;
+      // An edge of a face between halves may be halved by a third cell, and does not cut the face.
+      if ((one != nullptr && is_along(*one, a, b)) || (two != nullptr && is_along(*two, a, b)))
+        result.cuts.push_back(result.loop.size());
+      result.loop.push_back(middle->second.vertex);
+      result.has_middles = true;
+    }
+    return result;
+  }
+
+  // Gives the face the middles as corners or cuts it in two, and gives its parts to the halves of its cells.
   void halve_face(std::int32_t number) {
     const PolyhedralMesh::Face face = mesh_.mesh().faces[number];
     if (face.owner == no_index) return;
-    const Column* const one = column_of(face.owner);
-    const Column* const two = face.is_inner() ? column_of(face.neighbour) : nullptr;
-    std::size_t halved = 0;
-    for_each_halved(face, [&](const VertexKey<2>&) { ++halved; });
-    if (halved == 0 && one == nullptr && two == nullptr) return;
-    std::vector<Vertex> loop;
-    std::vector<std::size_t> cuts;  // the middles of a column's own edges, by place in the loop
-    const auto corners = mesh_.mesh().corners_of(face);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vertex a = corners[i], b = corners[(i + 1) % corners.size()];
-      loop.push_back(a);
-      const auto middle = middles_.find(edge_key(a, b));
-      if (middle == middles_.end()) continue;
-      if ((one != nullptr && is_along(*one, a, b)) || (two != nullptr && is_along(*two, a, b)))
-        cuts.push_back(loop.size());
-      loop.push_back(middle->second.vertex);
-    }
-    if (halved > 0)
+    const HalvedLoop with_middles = loop_with_middles(face);
+    const bool is_of_halved = halved(face.owner) != nullptr || (face.is_inner() && halved(face.neighbour) != nullptr);
+    if (!with_middles.has_middles && !is_of_halved) return;
+    if (with_middles.has_middles)
       for (const std::int32_t cell : {face.owner, face.neighbour})
-        if (cell != no_index && column_of(cell) == nullptr) whole_.insert(cell);
-    const std::vector<Vertex> first = cuts.size() == 2 ? part_of_loop(loop, cuts[0], cuts[1]) : loop;
-    const Vertex corner = first[cuts.size() == 2 ? 1 : 0];
-    if (halved > 0) {
-      mesh_.set_loop(number, first);
-      mesh_.measure_face(number);
+        if (cell != no_index && halved(cell) == nullptr) whole_.insert(cell);
+    const std::vector<Vertex>& loop = with_middles.loop;
+    if (with_middles.cuts.size() != 2) {
+      if (with_middles.has_middles) {
+        mesh_.set_loop(number, loop);
+        mesh_.measure_face(number);
+      }
+      give_to_halves(number, face, loop[0], false);
+      return;
     }
-    const std::int32_t owner = half_of(face.owner, corner), neighbour = half_of(face.neighbour, corner);
-    mesh_.set_sides(number, owner, neighbour);
-    if (one != nullptr) more_faces_[owner].push_back(number);
-    if (two != nullptr) more_faces_[neighbour].push_back(number);
-    if (cuts.size() != 2) return;
-    const std::vector<Vertex> second = part_of_loop(loop, cuts[1], cuts[0]);
-    const std::int32_t owner_of_second = half_of(face.owner, second[1]),
-                       neighbour_of_second = half_of(face.neighbour, second[1]);
-    const std::int32_t other = mesh_.add_face(second, owner_of_second, neighbour_of_second, face.surface, face.flipped);
+    // Both parts begin with a middle; their next corner is one of the face.
+    const std::size_t one = with_middles.cuts[0], two = with_middles.cuts[1];
+    const std::vector<Vertex> first = part_of_loop(loop, one, two), second = part_of_loop(loop, two, one);
+    mesh_.set_loop(number, first);
+    mesh_.measure_face(number);
+    give_to_halves(number, face, first[1], false);
+    const std::int32_t other = mesh_.add_face(second, face.owner, face.neighbour, face.surface, face.flipped);
     mesh_.measure_face(other);
-    more_faces_[owner_of_second].push_back(other);
-    if (face.is_inner()) more_faces_[neighbour_of_second].push_back(other);
+    give_to_halves(other, face, second[1], true);
   }
 
-  static bool is_along(const Column& column, Vertex a, Vertex b) {
-    for (std::size_t i = 0; i < column.low.size(); ++i)
-      if ((column.low[i] == a && column.high[i] == b) || (column.low[i] == b && column.high[i] == a)) return true;
+  // The face's sides become the halves that have this corner of it. Halves get their list of faces anew; a cell that
+  // stays whole has the face already, unless it is new.
+  void give_to_halves(std::int32_t number, const PolyhedralMesh::Face& face, Vertex corner, bool is_new) {
+    const std::int32_t owner = half_of(face.owner, corner), neighbour = half_of(face.neighbour, corner);
+    mesh_.set_sides(number, owner, neighbour);
+    if (is_new || halved(face.owner) != nullptr) more_faces_[owner].push_back(number);
+    if (face.is_inner() && (is_new || halved(face.neighbour) != nullptr)) more_faces_[neighbour].push_back(number);
+  }
+
+  // Whether the edge is one of those that the cell is halved along.
+  static bool is_along(const HalvedCell& cell, Vertex a, Vertex b) {
+    for (std::size_t i = 0; i < cell.low.size(); ++i)
+      if ((cell.low[i] == a && cell.high[i] == b) || (cell.low[i] == b && cell.high[i] == a)) return true;
     return false;
   }
 
-  // The face between the two halves, and their shapes and corners.
-  void add_middle(std::size_t number) {
-    const Column& column = columns_[number];
+  // Adds the face between the two halves of a cell, which then have all their faces, and notes the corners of both.
+  void add_middle_face(std::size_t number) {
+    const HalvedCell& cell = halved_[number];
     std::vector<Vertex> loop;
-    for (std::size_t i = 0; i < column.low.size(); ++i)
-      loop.push_back(middles_.at(edge_key(column.low[i], column.high[i])).vertex);
-    const std::int32_t lower = column.cell, upper = upper_[number];
+    for (std::size_t i = 0; i < cell.low.size(); ++i)
+      loop.push_back(middles_.at(edge_key(cell.low[i], cell.high[i])).vertex);
+    const std::int32_t lower = cell.cell, upper = upper_[number];
     // From the lower half to the upper: counter-clockwise as seen from there.
     const std::int32_t face = mesh_.add_face(loop, lower, upper, no_index, false);
     mesh_.measure_face(face);
-    const Vec3 up = mesh_.mesh().points[column.high[0]] - mesh_.mesh().points[column.low[0]];
+    const Vec3 up = mesh_.mesh().points[cell.high[0]] - mesh_.mesh().points[cell.low[0]];
     if (dot(mesh_.shape(face).area, up) < 0) mesh_.set_sides(face, upper, lower);
     more_faces_[lower].push_back(face), more_faces_[upper].push_back(face);
-    for (const std::int32_t cell : {lower, upper}) {
-      mesh_.set_faces(cell, more_faces_[cell]);
-      mesh_.measure_cell(cell);
+    for (const std::int32_t half : {lower, upper}) {
+      mesh_.set_faces(half, more_faces_[half]);
+      mesh_.measure_cell(half);
     }
     LayerCell &at = cells_[numbers_[number]], above = at;
     above.cell = upper;
-    for (std::size_t i = 0; i < column.low.size(); ++i)
+    for (std::size_t i = 0; i < cell.low.size(); ++i)
       for (std::size_t k = 0; k < 8; ++k) {
-        if (above.corners[k] == column.low[i]) above.corners[k] = loop[i];
-        if (at.corners[k] == column.high[i]) at.corners[k] = loop[i];
+        if (above.corners[k] == cell.low[i]) above.corners[k] = loop[i];
+        if (at.corners[k] == cell.high[i]) at.corners[k] = loop[i];
       }
     cells_.push_back(above);
   }
 
   MeasuredMesh& mesh_;
   std::vector<LayerCell>& cells_;
-  VertexItems at_vertices_;  // cells_
-  std::vector<Column> columns_;
-  std::vector<std::size_t> numbers_;        // of the columns in cells_
-  std::vector<std::int32_t> column_of_;     // by cell
-  std::vector<std::int32_t> upper_;         // the upper half of each column
+  VertexItems at_vertices_;                 // numbers in cells_
+  std::vector<HalvedCell> halved_;          // of this round
+  std::vector<std::size_t> numbers_;        // of halved_ in cells_
+  std::vector<std::int32_t> halved_of_;     // by cell: its place in halved_; no_index: it stays whole
+  std::vector<std::int32_t> upper_;         // by place in halved_: the cell that is the upper half
   std::map<VertexKey<2>, Middle> middles_;  // of halved edges
-  std::vector<std::uint8_t> is_end_;        // by vertex
-  std::map<std::int32_t, std::vector<std::int32_t>> more_faces_;
-  std::set<std::int32_t> whole_;  // cells beside columns
+  std::vector<std::uint8_t> is_end_;        // by vertex: whether a halved edge ends there
+  std::map<std::int32_t, std::vector<std::int32_t>> more_faces_;  // all faces of a half; new faces of a whole cell
+  std::set<std::int32_t> whole_;                                  // cells that are not halved, but whose edges are
 };
 
 }  // namespace
 
 std::int64_t split_single_layers(MeasuredMesh& mesh, std::vector<LayerCell> cells,
                                  const MeasuredMesh::Refused& refused) {
-  // A bar of one cell across needs two rounds, and sheets that cross a round each.
+  // A bar of one cell across is halved in two directions, one a round; sheets that cross need a round each.
   constexpr int most_rounds = 4;
   std::int64_t count = 0;
   for (int round = 0; round < most_rounds; ++round) {

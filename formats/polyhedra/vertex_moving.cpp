@@ -11,9 +11,9 @@
 namespace hexpipe::polyhedra {
 namespace {
 
-// By the shortest edge at the vertex.
+// How far a vertex is moved, by the shortest edge at it.
 constexpr std::array<double, 5> lengths{0.02, 0.05, 0.1, 0.2, 0.3};
-constexpr double longest_on_curved = 0.1;  // where it leaves the facets of the boundary
+constexpr double longest_on_curved = 0.1;  // on a curved boundary, whose facets it leaves
 
 class Mover {
  public:
@@ -27,24 +27,16 @@ class Mover {
 
   std::optional<Move> best() {
     std::optional<Move> found;
-    if (limits_.size() > 2) return found;
+    const std::vector<Place> all = places();
+    if (all.empty()) return found;
     const CellSet around = with_neighbours(mesh_, cells_);
-    const Vec3 start = mesh_.mesh().points[vertex_];
-    const double unit_length = shortest_edge();
-    const std::vector<Vec3> all = ways();
-    for (const double length : lengths) {
-      if (length > longest_) break;
-      for (const Vec3& way : all) {
-        Move move{.cell = cell_, .vertex = vertex_, .place = start + way * (length * unit_length), .length = length};
-        if (trouble_at(move.place, start) > 0) continue;
-        const auto worth = worth_of_change(mesh_, around, {cell_}, [&] { return make(move.place); });
-        mesh_.set_point(vertex_, start);
-        if (!worth || worth->refused >= 0 || worth->own > 0) continue;
-        if (found && found->worth <= *worth) continue;
-        move.worth = *worth;
-        found = move;
-      }
-      if (found) return found;
+    for (const Place& at : all) {
+      if (found && at.length > found->length) break;
+      if (trouble_at(at.point) > 0) continue;
+      const auto cost = cost_around(around, at.point);
+      if (!cost || cost->wrong_added >= 0 || cost->wrong_in_new > 0) continue;
+      if (found && found->cost <= *cost) continue;
+      found = {.cost = *cost, .cell = cell_, .vertex = vertex_, .place = at.point, .length = at.length};
     }
     return found;
   }
@@ -52,40 +44,48 @@ class Mover {
   // Calls visit(place, trouble of the cell with its vertex there).
   template <class Visit>
   void for_each_place(Visit&& visit) {
-    if (limits_.size() > 2) return;
+    for (const Place& at : places()) visit(at.point, trouble_at(at.point));
+  }
+
+  std::optional<Cost> cost_at(const Vec3& place) { return cost_around(with_neighbours(mesh_, cells_), place); }
+
+  void move_to(const Vec3& place) {
+    mesh_.set_point(vertex_, place);
+    for (const std::int32_t face : faces_) mesh_.measure_face(face);
+    for (const std::int32_t cell : cells_) mesh_.measure_cell(cell);
+  }
+
+ private:
+  struct Place {
+    double length;  // of the way, by the shortest edge at the vertex
+    Vec3 point;
+  };
+
+  // Where the vertex may go, short ways first; none if it may not move at all.
+  std::vector<Place> places() const {
+    std::vector<Place> found;
+    if (limits_.size() > 2) return found;
     const Vec3 start = mesh_.mesh().points[vertex_];
     const double unit_length = shortest_edge();
     const std::vector<Vec3> all = ways();
     for (const double length : lengths) {
       if (length > longest_) break;
-      for (const Vec3& way : all) {
-        const Vec3 place = start + way * (length * unit_length);
-        visit(place, trouble_at(place, start));
-      }
+      for (const Vec3& way : all) found.push_back({length, start + way * (length * unit_length)});
     }
+    return found;
   }
 
-  std::optional<Worth> worth_at(const Vec3& place) {
+  std::optional<Cost> cost_around(const CellSet& around, const Vec3& place) {
     const Vec3 start = mesh_.mesh().points[vertex_];
-    const auto worth = worth_of_change(mesh_, with_neighbours(mesh_, cells_), {cell_}, [&] { return make(place); });
+    const auto cost = cost_of_change(mesh_, around, {cell_}, [&] { return move_to(place), true; });
     mesh_.set_point(vertex_, start);
-    return worth;
+    return cost;
   }
 
-  bool make(const Vec3& place) {
-    mesh_.set_point(vertex_, place);
-    for (const std::int32_t face : faces_) mesh_.measure_face(face);
-    for (const std::int32_t cell : cells_) mesh_.measure_cell(cell);
-    return true;
-  }
-
- private:
   double shortest_edge() const {
     double shortest = -1;
     for (const std::int32_t face : faces_) {
-      const auto corners = mesh_.mesh().corners_of(mesh_.mesh().faces[face]);
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vertex a = corners[i], b = corners[(i + 1) % corners.size()];
+      for (const auto& [a, b] : edges_of(mesh_.mesh().corners_of(mesh_.mesh().faces[face]))) {
         if (a != vertex_ && b != vertex_) continue;
         const double length = norm(mesh_.mesh().points[a] - mesh_.mesh().points[b]);
         if (shortest < 0 || length < shortest) shortest = length;
@@ -94,8 +94,9 @@ class Mover {
     return shortest;
   }
 
-  // Of the cell itself with its vertex there: a quick test.
-  double trouble_at(const Vec3& place, const Vec3& start) {
+  // The trouble of the cell with its vertex there. Measures this cell alone, so it is much quicker than the cost.
+  double trouble_at(const Vec3& place) {
+    const Vec3 start = mesh_.mesh().points[vertex_];
     MeasuredMesh::Undo undo(mesh_, std::array{cell_});
     mesh_.set_point(vertex_, place);
     for (const std::int32_t face : mesh_.faces_of(cell_))
@@ -107,14 +108,15 @@ class Mover {
     return trouble;
   }
 
-  // The normals of the cell's faces, both ways, and those between two of them.
+  // Directions: the normals of the cell's faces and the bisectors of two of them, both ways, as far as the limits
+  // allow.
   std::vector<Vec3> ways() const {
     std::vector<Vec3> normals;
     for (const std::int32_t face : mesh_.faces_of(cell_)) normals.push_back(unit(mesh_.area(face, cell_)));
     std::vector<Vec3> found;
     for (const Vec3& one : normals)
       for (const double sign : {1.0, -1.0}) found.push_back(one * sign);
-    constexpr std::size_t few = 8;  // more have normals in many directions
+    constexpr std::size_t few = 8;  // the normals of more faces are directions enough
     for (std::size_t i = 0; i < std::min(normals.size(), few); ++i)
       for (std::size_t k = 0; k < i; ++k)
         for (const double sign : {1.0, -1.0}) {
@@ -125,12 +127,14 @@ class Mover {
       for (const Vec3& limit : limits_) way -= limit * dot(way, limit);
       way = unit(way);
     }
+    // Those of which the limits leave nothing are 0.
     std::erase_if(found, [](const Vec3& way) { return norm_squared(way) < 0.5; });
     return found;
   }
 
-  // The directions in which the vertex must not move: the normal where the boundary is smooth around it, two where it
-  // has an edge or two surfaces meet, three elsewhere.
+  // The directions in which the vertex must not move: none inside, the normal where the boundary is smooth around it,
+  // two along a straight edge of the boundary, three (it stays) at its corners. A border between two surfaces counts as
+  // an edge.
   void find_limits() {
     std::set<std::int32_t> surfaces;
     std::vector<Vec3> areas;
@@ -140,7 +144,7 @@ class Mover {
       surfaces.insert(face.surface);
       areas.push_back(mesh_.shape(number).area);
     }
-    constexpr double flat = 1e-3, smooth = 0.34;  // sines; that of 20 degrees
+    constexpr double flat = 1e-3, smooth = 0.34;  // sines: of rounding, and of 20 degrees
     std::ranges::sort(areas, std::greater<>(), norm_squared);
     for (const Vec3& area : areas) {
       Vec3 rest = unit(area);
@@ -157,9 +161,9 @@ class Mover {
   MeasuredMesh& mesh_;
   std::int32_t cell_;
   Vertex vertex_;
-  CellSet cells_;  // that have the vertex
-  std::set<std::int32_t> faces_;
-  std::vector<Vec3> limits_;
+  CellSet cells_;                 // all cells at the vertex
+  std::set<std::int32_t> faces_;  // all faces at the vertex
+  std::vector<Vec3> limits_;      // orthonormal
   double longest_ = lengths.back();
 };
 
@@ -176,49 +180,49 @@ std::optional<Move> best_move(MeasuredMesh& mesh, std::int32_t cell) {
   std::optional<Move> found;
   for (const Vertex vertex : vertices_of(mesh, cell)) {
     const auto move = Mover(mesh, cell, vertex).best();
-    if (move && (!found || std::tie(move->worth, move->length) < std::tie(found->worth, found->length))) found = move;
+    if (move && (!found || std::tie(move->cost, move->length) < std::tie(found->cost, found->length))) found = move;
   }
   return found;
 }
 
-std::int64_t climb(MeasuredMesh& mesh, std::int32_t cell, std::int64_t refused_before, ClimbEffort effort) {
+std::int64_t climb(MeasuredMesh& mesh, std::int32_t cell, std::int64_t wrong_added, ClimbEffort effort) {
   struct Step {
     double trouble;
     Vertex vertex;
     Vec3 place;
   };
-  std::vector<Step> made;  // with the places before
-  std::int64_t refused = refused_before;
+  constexpr double enough_less = 0.95;  // a step of 0.98 leaves less, but takes half as long again
+  std::vector<Step> made;               // with the places before, to take them back
   double trouble = mesh.trouble(cell);
   for (int step = 0; step < effort.steps && trouble > 0; ++step) {
     std::vector<Step> steps;
     for (const Vertex vertex : vertices_of(mesh, cell))
       Mover(mesh, cell, vertex).for_each_place([&](const Vec3& place, double there) {
-        if (there < 0.95 * trouble) steps.push_back({there, vertex, place});
+        if (there < enough_less * trouble) steps.push_back({there, vertex, place});
       });
     std::ranges::stable_sort(steps, {}, &Step::trouble);
     if (steps.size() > effort.tried) steps.resize(effort.tried);
     bool found = false;
     for (const Step& one : steps) {
       Mover mover(mesh, cell, one.vertex);
-      const auto worth = mover.worth_at(one.place);
-      if (!worth || worth->refused > 0) continue;
+      const auto cost = mover.cost_at(one.place);
+      if (!cost || cost->wrong_added > 0) continue;
       made.push_back({trouble, one.vertex, mesh.mesh().points[one.vertex]});
-      mover.make(one.place);
-      refused += worth->refused;
+      mover.move_to(one.place);
+      wrong_added += cost->wrong_added;
       trouble = mesh.trouble(cell);
       found = true;
       break;
     }
     if (!found) break;
   }
-  if (trouble == 0 && refused < 0) return static_cast<std::int64_t>(made.size());
-  for (; !made.empty(); made.pop_back()) Mover(mesh, cell, made.back().vertex).make(made.back().place);
+  if (trouble == 0 && wrong_added < 0) return static_cast<std::int64_t>(made.size());
+  for (; !made.empty(); made.pop_back()) Mover(mesh, cell, made.back().vertex).move_to(made.back().place);
   return 0;
 }
 
-bool move_vertex(MeasuredMesh& mesh, const Move& move) {
-  return Mover(mesh, move.cell, move.vertex).make(move.place);
+void move_vertex(MeasuredMesh& mesh, const Move& move) {
+  Mover(mesh, move.cell, move.vertex).move_to(move.place);
 }
 
 }  // namespace hexpipe::polyhedra

@@ -1,5 +1,5 @@
 #pragma once
-// A vertex inside the mesh moves a little, so that nothing is wrong any more with the cells around it.
+// Vertices move a little, on the boundary along it, so that nothing is wrong any more with a cell.
 
 #include <optional>
 
@@ -8,25 +8,28 @@
 namespace hexpipe::polyhedra {
 
 struct Move {
-  Worth worth{};
-  std::int32_t cell = no_index;  // that has the vertex
+  Cost cost{};
+  std::int32_t cell = no_index;  // a cell of the vertex
   Vertex vertex = no_index;
-  Vec3 place{};
-  double length = 0;
+  Vec3 place{};       // where it goes
+  double length = 0;  // how far, by the shortest edge at the vertex
 };
 
-// The shortest move of a vertex of the cell that leaves nothing wrong with the cell, and less around it than before.
+// The move of one vertex of the cell that costs least and leaves nothing wrong with the cell, and less around it than
+// before; of moves that cost the same, the shortest.
 std::optional<Move> best_move(MeasuredMesh& mesh, std::int32_t cell);
 
 struct ClimbEffort {
-  int steps;          // moves
-  std::size_t tried;  // for each of them
+  int steps;          // the most moves
+  std::size_t tried;  // the most places that are tried for each of them
 };
 
-// Several moves of vertices of the cell, each of which brings it nearer to having nothing wrong, and leaves no more
-// wrong around it: made if the last one gets there. Returns how many; 0 if there is no such way.
-std::int64_t climb(MeasuredMesh& mesh, std::int32_t cell, std::int64_t refused_before, ClimbEffort effort);
+// Hill climbing: moves vertices of the cell one after the other. Each move lowers the cell's trouble() and leaves no
+// more wrong around it. The moves are kept if nothing is wrong with the cell in the end, and less around it than
+// before; `wrong_added` is what an earlier part of the same change has added around it. Returns the number of moves; 0
+// if none is kept.
+std::int64_t climb(MeasuredMesh& mesh, std::int32_t cell, std::int64_t wrong_added, ClimbEffort effort);
 
-bool move_vertex(MeasuredMesh& mesh, const Move& move);
+void move_vertex(MeasuredMesh& mesh, const Move& move);
 
 }  // namespace hexpipe::polyhedra

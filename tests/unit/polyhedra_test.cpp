@@ -200,7 +200,7 @@ TEST(Polyhedra, TetsWithTwoFacetsOnTheBoundaryMerge) {
   EXPECT_GT(counts.refused_before, 10);
   EXPECT_EQ(counts.refused, 0);
   EXPECT_GT(counts.merged, 0);
-  EXPECT_LT(counts.into, counts.merged);
+  EXPECT_LT(counts.polyhedra, counts.merged);
   expect_sound(sample.mesh);
   const MeasuredMesh after(sample.mesh);
   EXPECT_EQ(after.refused().count(), 0U);
@@ -271,7 +271,7 @@ TEST(Polyhedra, AFlatTetIsLeftOutAndItsEdgeFlipped) {
   // Two edges of 2 sqrt(2), across each other at this distance.
   EXPECT_NEAR(mesh.volume(0), 8 * height / 6, tolerance);
   EXPECT_EQ(mesh.refusals_of_cell(0) & determinant, determinant);
-  ASSERT_TRUE(worth_of_leaving_out(mesh, 0));
+  ASSERT_TRUE(cost_of_leaving_out(mesh, 0));
   EXPECT_EQ(mesh.faces_of(0).size(), 4U);  // it is taken back
   ASSERT_TRUE(leave_out(mesh, 0));
   renumber(sample.mesh, mesh.order());
@@ -298,13 +298,13 @@ TEST(Polyhedra, ATetWithThreeFacetsIsLeftOutWithItsVertex) {
     if (!face.is_inner()) face.surface = face.owner;
   MeasuredMesh mesh(sample.mesh);
   // The one behind would have no neighbour.
-  EXPECT_FALSE(worth_of_leaving_out(mesh, 0));
+  EXPECT_FALSE(cost_of_leaving_out(mesh, 0));
   sample.mesh.points.push_back({-2, 1, -1});
   sample.add<TetTopology>({0, 2, 4, 5});
   for (PolyhedralMesh::Face& face : sample.mesh.faces)
     if (!face.is_inner()) face.surface = face.owner;
   MeasuredMesh more(sample.mesh);
-  ASSERT_TRUE(worth_of_leaving_out(more, 0));
+  ASSERT_TRUE(cost_of_leaving_out(more, 0));
   ASSERT_TRUE(leave_out(more, 0));
   renumber(sample.mesh, more.order());
   expect_sound(sample.mesh);
@@ -316,7 +316,7 @@ TEST(Polyhedra, ATetWithThreeFacetsIsLeftOutWithItsVertex) {
 TEST(Polyhedra, ACellStaysWhereTheBoundaryWouldChange) {
   const auto is_kept = [](Sample sample) {
     MeasuredMesh mesh(sample.mesh);
-    return !worth_of_leaving_out(mesh, 0);
+    return !cost_of_leaving_out(mesh, 0);
   };
   EXPECT_FALSE(is_kept(roof(0.03)));
   // The distance of the diagonals by the length of an edge, 2: above 0.2 from 0.4 on, where facets turn by 32 degrees.
