@@ -77,6 +77,7 @@ class Reducer {
 
   void decide(std::int32_t v);
   bool may_decide(std::int64_t weight);
+  void keep_open_beside(std::int32_t x);
   bool gather_around(std::int32_t v);
   void sort_around();
   void count_look();
@@ -134,7 +135,7 @@ class Reducer {
   std::vector<std::int32_t> outside_;  // the neighbours' other neighbours, ascending
   std::size_t outside_words_ = 0;
   std::vector<bits::Word> conflicts_;      // a row over outside_ for each of around_
-  std::vector<bits::Word> set_conflicts_;  // a row over outside_ for each of sets_
+  std::vector<bits::Word> set_conflicts_;  // a row over outside_ for each of sets_, and room for more
 };
 
 }  // namespace hexpipe::mwis::reduce
