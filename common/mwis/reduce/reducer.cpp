@@ -8,7 +8,8 @@ namespace hexpipe::mwis::reduce {
 namespace {
 
 // Places count from the second word of a row, so that a vertex that is nowhere has a bit, too, in the first word. Rows
-// are then built without branches, which processors would predict wrong half of the time.
+// are then built without branches, which processors would predict wrong half of the time. Where a row is one word, as
+// nearly always, each vertex has the word that it adds.
 constexpr std::int32_t nowhere = 0, first_place = 64;
 constexpr std::int32_t place_of(std::size_t i) {
   return first_place + static_cast<std::int32_t>(i);
@@ -39,9 +40,33 @@ constexpr std::int32_t small_count = 4096;
 constexpr double small_degree = 100;
 // Measured on roads and block-28k: the work of examining a vertex, a neighbour of a neighbour, and a set.
 constexpr double work_a_look = 150, work_a_neighbour = 2, work_a_set = 30;
+// Searching a list for a number takes as long as marking this many numbers.
+constexpr std::size_t a_search = 8;
 // A try that removed nothing after this many vertices were examined is given up. Cascades that are worth it have
 // removed hundreds by then.
 constexpr std::size_t patience = 2048;
+
+// Whether a set includes one of those before it. A word that told it from one of them most often tells it from the next.
+bool includes_one_of(const bits::Word* set, const bits::Word* others, std::size_t words) {
+  std::size_t telling = 0;
+  for (const bits::Word* other = others; other != set; other += words) {
+    if ((other[telling] & ~set[telling]) != 0) continue;
+    std::size_t w = 0;
+    while (w < words && (other[w] & ~set[w]) == 0) ++w;
+    if (w == words) return true;
+    telling = w;
+  }
+  return false;
+}
+
+// Whether a number is in an ascending list, which must not be empty. Every step is taken, so that processors have no
+// branch to predict.
+bool contains(std::span<const std::int32_t> ascending, std::int32_t number) {
+  const std::int32_t* begin = ascending.data();
+  for (std::size_t left = ascending.size(); left > 1; left -= left / 2)
+    begin += begin[left / 2] <= number ? left / 2 : 0;
+  return *begin == number;
+}
 
 }  // namespace
 
@@ -68,7 +93,8 @@ Reducer::Reducer(const graph::ConflictGraph& graph, ReductionLog& log, std::vect
       log_(log),
       incomplete_(std::move(incomplete)),
       growth_(graph.weights.size(), unknown),
-      places_(graph.weights.size(), nowhere) {
+      places_(graph.weights.size(), nowhere),
+      word_of_(graph.weights.size(), 0) {
   std::vector<std::int32_t> order(graph.weights.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::int32_t v) { return graph.degree(v); });
@@ -176,6 +202,7 @@ void Reducer::take_back(std::size_t decided, std::int64_t offset) {
   offset_ = offset;
   const auto count = static_cast<std::size_t>(graph_.vertex_count());
   places_.resize(count);
+  word_of_.resize(count);
   growth_.resize(count);
   for (auto before = growth_before_.rbegin(); before != growth_before_.rend(); ++before) {
     const auto& [growth, v] = *before;
@@ -220,13 +247,22 @@ bool Reducer::may_decide(std::int64_t weight) {
     if (heavy <= weight && heaviest == by_weight_.begin()) return true;
     const auto has_room = [&](const Weighted& u) { return heavy <= weight - u.weight; };
     if (std::ranges::any_of(open_, has_room)) return true;
-    const auto neighbours = graph_.neighbours_of(x);
-    for (const std::int32_t u : neighbours) places_[u] = first_place;
-    std::erase_if(open_, [&](const Weighted& u) { return u.vertex != x && places_[u.vertex] == nowhere; });
-    for (const std::int32_t u : neighbours) places_[u] = nowhere;
+    keep_open_beside(x);
     if (open_.empty()) return false;
   }
   return true;
+}
+
+// Leaves of open_ only x and what is in conflict with it.
+void Reducer::keep_open_beside(std::int32_t x) {
+  const auto neighbours = graph_.neighbours_of(x);
+  if (open_.size() * a_search <= neighbours.size()) {
+    std::erase_if(open_, [&](const Weighted& u) { return u.vertex != x && !contains(neighbours, u.vertex); });
+    return;
+  }
+  for (const std::int32_t u : neighbours) places_[u] = first_place;
+  std::erase_if(open_, [&](const Weighted& u) { return u.vertex != x && places_[u.vertex] == nowhere; });
+  for (const std::int32_t u : neighbours) places_[u] = nowhere;
 }
 
 // False if there are too many neighbours.
@@ -265,7 +301,7 @@ bool Reducer::build_rows_while(Wanted&& wanted) {
   set_.assign(local_.words(), 0);
   excluded_.assign(local_.words(), 0);
   for (std::size_t i = 0; i < around_.size(); ++i) {
-    places_[around_[i]] = place_of(i);
+    set_place(around_[i], i);
     local_.set_weight(i, by_weight_[i].weight);
   }
   bool all = true;
@@ -273,18 +309,24 @@ bool Reducer::build_rows_while(Wanted&& wanted) {
     build_row(around_[i], local_.row(i));
     all = wanted(i);
   }
-  for (const std::int32_t u : around_) places_[u] = nowhere;
+  for (const std::int32_t u : around_) places_[u] = nowhere, word_of_[u] = 0;
   return all;
 }
 
-// The row gets the neighbours of v that have places. With one word, a vertex that is nowhere is shifted in as a 0. With
-// several, it is marked in the first word, which is then dropped.
+void Reducer::set_place(std::int32_t v, std::size_t i) {
+  if (local_.words() == 1)
+    word_of_[v] = bits::Word{1} << i;
+  else
+    places_[v] = place_of(i);
+}
+
+// The row gets the neighbours of v that have places. With several words, a vertex that is nowhere is marked in the
+// first one, which is then dropped.
 void Reducer::build_row(std::int32_t v, bits::Word* row) {
   if (local_.words() == 1) {
-    for (const std::int32_t u : graph_.neighbours_of(v)) {
-      const auto place = static_cast<bits::Word>(places_[u]);
-      *row |= place / 64 << place % 64;
-    }
+    bits::Word word = 0;
+    for (const std::int32_t u : graph_.neighbours_of(v)) word |= word_of_[u];
+    *row = word;
     return;
   }
   std::array<bits::Word, 1 + bits::words_for(largest_neighbourhood)> marked{};
@@ -373,24 +415,20 @@ bool Reducer::drop_outside_sets() {
 // conflicts outside.
 void Reducer::collect_sets() {
   look_outside();
-  std::vector<std::size_t> order(heavy_sets_.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return heavy_sets_.weight(i); });
+  set_order_.clear();
+  for (std::size_t i = 0; i < heavy_sets_.size(); ++i) set_order_.emplace_back(-heavy_sets_.weight(i), i);
+  std::ranges::sort(set_order_);
   sets_.clear();
-  set_conflicts_.clear();
-  for (const std::size_t i : order) {
-    set_conflicts_.resize((sets_.size() + 1) * outside_words_, 0);
-    bits::Word* const row = set_conflicts_.data() + sets_.size() * outside_words_;
+  set_conflicts_.resize(std::max(set_conflicts_.size(), set_order_.size() * outside_words_));
+  bits::Word* row = set_conflicts_.data();
+  for (const auto& [lightness, i] : set_order_) {
+    std::fill_n(row, outside_words_, 0);
     bits::for_each(heavy_sets_.set(i), local_.words(), [&](std::size_t j) {
       for (std::size_t w = 0; w < outside_words_; ++w) row[w] |= conflicts_[j * outside_words_ + w];
     });
-    bool replaced = false;
-    for (const bits::Word* other = set_conflicts_.data(); other != row && !replaced; other += outside_words_)
-      replaced = bits::includes(row, other, outside_words_);
-    if (replaced)
-      std::fill_n(row, outside_words_, 0);
-    else
-      sets_.push_back(i);
+    if (includes_one_of(row, set_conflicts_.data(), outside_words_)) continue;
+    sets_.push_back(i);
+    row += outside_words_;
   }
 }
 
@@ -437,6 +475,7 @@ void Reducer::fold(std::int32_t v) {
     for (std::int32_t other = first; other < graph_.vertex_count(); ++other) neighbours.push_back(other);
     queue_.push(graph_.add(heavy_sets_.weight(sets_[i]) - weight, neighbours));
     places_.push_back(nowhere);
+    word_of_.push_back(0);
     growth_.push_back(unknown);
   }
   for (std::int32_t created = first; created < graph_.vertex_count(); ++created)

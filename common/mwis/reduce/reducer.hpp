@@ -77,6 +77,7 @@ class Reducer {
 
   void decide(std::int32_t v);
   bool may_decide(std::int64_t weight);
+  void keep_open_beside(std::int32_t x);
   bool gather_around(std::int32_t v);
   void sort_around();
   void count_look();
@@ -84,6 +85,7 @@ class Reducer {
   template <class Wanted>
   bool build_rows_while(Wanted&& wanted);
   bool build_rows_of_few_sets(std::int64_t limit, std::size_t most);
+  void set_place(std::int32_t v, std::size_t i);
   void build_row(std::int32_t v, bits::Word* row);
   bool bound_without(const bits::Word* excluded, std::int64_t limit);
   bool drop_replaceable(std::int32_t v);
@@ -125,16 +127,18 @@ class Reducer {
   std::vector<Weighted> open_;  // neighbours that may still be dropped
   // The same, the heaviest vertex first, as a small graph.
   std::vector<std::int32_t> around_;
-  std::vector<std::int32_t> places_;  // in around_, while local_ is built
+  std::vector<std::int32_t> places_;  // in around_, while local_ is built, if its rows have several words
+  std::vector<bits::Word> word_of_;   // the place as a bit, while local_ is built, if its rows have one word
   ground::DenseGraph local_;
   std::vector<bits::Word> set_, excluded_;
   bounds::CliqueCoverBound bound_;
   HeavySets heavy_sets_;
+  std::vector<std::pair<std::int64_t, std::size_t>> set_order_;  // of heavy_sets_: weights below zero, and numbers
   std::vector<std::size_t> sets_;      // the heavy_sets_ that a fold has to keep, the heaviest first
   std::vector<std::int32_t> outside_;  // the neighbours' other neighbours, ascending
   std::size_t outside_words_ = 0;
   std::vector<bits::Word> conflicts_;      // a row over outside_ for each of around_
-  std::vector<bits::Word> set_conflicts_;  // a row over outside_ for each of sets_
+  std::vector<bits::Word> set_conflicts_;  // a row over outside_ for each of sets_, and room for more
 };
 
 }  // namespace hexpipe::mwis::reduce

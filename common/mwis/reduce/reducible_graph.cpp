@@ -16,15 +16,13 @@ ReducibleGraph::ReducibleGraph(const graph::ConflictGraph& graph)
     lists_.push_back({graph.offsets[v], graph.degree(v), graph.degree(v)});
 }
 
-std::span<const std::int32_t> ReducibleGraph::neighbours_of(std::int32_t v) {
-  if (stale_[v] != 0) {
-    stale_[v] = 0;
-    if (lists_[v].begin < marked_end_) move_to_end(v, lists_[v].size);
-    const auto begin = pool_.begin() + lists_[v].begin;
-    const auto end = std::remove_if(begin, begin + lists_[v].size, [&](std::int32_t u) { return alive_[u] == 0; });
-    lists_[v].size = end - begin;
-  }
-  return std::span(pool_).subspan(lists_[v].begin, lists_[v].size);
+// Leaves those that are gone out of the list.
+void ReducibleGraph::refresh(std::int32_t v) {
+  stale_[v] = 0;
+  if (lists_[v].begin < marked_end_) move_to_end(v, lists_[v].size);
+  const auto begin = pool_.begin() + lists_[v].begin;
+  const auto end = std::remove_if(begin, begin + lists_[v].size, [&](std::int32_t u) { return alive_[u] == 0; });
+  lists_[v].size = end - begin;
 }
 
 void ReducibleGraph::remove(std::int32_t v) {
@@ -49,7 +47,7 @@ std::int32_t ReducibleGraph::add(std::int64_t weight, std::span<const std::int32
 
 // New vertices have the highest numbers, so lists stay ascending.
 void ReducibleGraph::append(std::int32_t v, std::int32_t neighbour) {
-  neighbours_of(v);
+  if (stale_[v] != 0) refresh(v);
   if (lists_[v].size == lists_[v].capacity || lists_[v].begin < marked_end_) move_to_end(v, 2 * lists_[v].size + 4);
   pool_[lists_[v].begin + lists_[v].size++] = neighbour;
 }

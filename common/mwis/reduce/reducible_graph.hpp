@@ -20,7 +20,10 @@ class ReducibleGraph {
   bool alive(std::int32_t v) const { return alive_[v] != 0; }
   std::int64_t weight(std::int32_t v) const { return weights_[v]; }
   // The neighbours of an existing vertex, ascending. Valid until a vertex is added.
-  std::span<const std::int32_t> neighbours_of(std::int32_t v);
+  std::span<const std::int32_t> neighbours_of(std::int32_t v) {
+    if (stale_[v] != 0) refresh(v);
+    return {pool_.data() + lists_[v].begin, static_cast<std::size_t>(lists_[v].size)};
+  }
 
   void remove(std::int32_t v);
   // `neighbours` must ascend without repeats.
@@ -37,6 +40,7 @@ class ReducibleGraph {
   struct List {
     std::int64_t begin, size, capacity;  // in pool_
   };
+  void refresh(std::int32_t v);
   void append(std::int32_t v, std::int32_t neighbour);
   void move_to_end(std::int32_t v, std::int64_t capacity);
   void pack();
