@@ -19,7 +19,7 @@ class Page:
         while not condition():
             if time.monotonic() > end:
                 raise AssertionError(f"waited too long: {self.text('message') or 'nothing settled'}")
-            time.sleep(0.02)
+            time.sleep(0.1)  # each question wakes the driver and the browser
 
     def state(self):
         """The view that was last drawn at its best, as key -> value."""

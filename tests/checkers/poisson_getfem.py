@@ -73,7 +73,8 @@ def stiffness_of(fem, integration):
 
 def condition_of(matrix, free):
     inner = matrix[free][:, free]
-    inverse = scipy.sparse.linalg.LinearOperator(inner.shape, scipy.sparse.linalg.splu(inner).solve)
+    inverse = scipy.sparse.linalg.LinearOperator(
+        inner.shape, scipy.sparse.linalg.splu(inner, permc_spec=SYMMETRIC_ORDER).solve)
     # A start of its own, so that the last digits are the same each time.
     start = np.random.default_rng(1).uniform(size=len(free))
     greatest, of_inverse = (scipy.sparse.linalg.eigsh(operator, k=1, v0=start, tol=1e-6, return_eigenvectors=False)[0]
@@ -87,7 +88,8 @@ def solve(fem, integration, stiffness, exact, source):
         load_vector = gf.asm_volumic_source(integration, fem, fem, source[np.newaxis, :]).ravel()
     matrix, fixed, free = stiffness
     values = exact.copy()
-    values[free] = scipy.sparse.linalg.spsolve(matrix[free][:, free], (load_vector - matrix[:, fixed] @ exact[fixed])[free])
+    values[free] = scipy.sparse.linalg.spsolve(
+        matrix[free][:, free], (load_vector - matrix[:, fixed] @ exact[fixed])[free], permc_spec=SYMMETRIC_ORDER)
     return values
 
 
