@@ -17,6 +17,7 @@ agrees() {
   local mesh=$1
   shift
   findhex -q --mesh "$mesh" "$@" -o found.cand
+  if sanitized; then return; fi # the checker finds in the optimized half what it would find here
   run "$CHECKERS/candidates_check.py" "$mesh" found.cand "$@"
   assert_success
   assert_output --partial " 0 missing, 0 extra, 0 with other tets"

@@ -20,6 +20,7 @@ file_of() {
 assert_contents() {
   local expected=$1
   shift
+  if sanitized; then return; fi # the other programs read in the optimized half what they would read here
   contents "$@" >found.txt
   if ! diff "$expected" found.txt; then fail "$* finds another mesh"; fi
 }

@@ -256,6 +256,7 @@ void MeasuredMesh::measure_face(std::int32_t face) {
 }
 
 void MeasuredMesh::measure_cell(std::int32_t cell) {
+  ++measurements_;
   if (is_touched_.size() < cells_.size()) is_touched_.resize(cells_.size());
   if (is_touched_[cell] == 0) {
     is_touched_[cell] = 1;

@@ -79,6 +79,8 @@ class MeasuredMesh {
   void set_hex(std::int32_t cell, bool is_hex) { mesh_.is_hex[cell] = is_hex ? 1 : 0; }
   void measure_face(std::int32_t face);
   void measure_cell(std::int32_t cell);
+  // How often measure_cell() was called: the work of all changes so far, also of those that were taken back.
+  std::int64_t measurements() const { return measurements_; }
 
   // For renumber(): a number for each cell that has faces.
   std::vector<std::int32_t> order() const;
@@ -104,6 +106,7 @@ class MeasuredMesh {
   // The cells that were measured again, also those of changes that were taken back.
   std::vector<std::int32_t> touched_;
   std::vector<std::uint8_t> is_touched_;
+  std::int64_t measurements_ = 0;
 };
 
 class MeasuredMesh::Undo {

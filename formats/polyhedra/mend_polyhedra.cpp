@@ -22,13 +22,17 @@ constexpr double most_hexes = 0.001;  // the share of the volume in hexes that m
 // Mends one cell or face after the other, by the list in the header.
 class Mender {
  public:
-  Mender(MeasuredMesh& mesh, double volume, MendCounts& counts)
-      : mesh_(mesh), volume_(volume), hexes_left_(most_hexes * volume), counts_(counts) {}
+  Mender(MeasuredMesh& mesh, double volume, std::int64_t most_measurements, MendCounts& counts)
+      : mesh_(mesh),
+        volume_(volume),
+        hexes_left_(most_hexes * volume),
+        last_measurement_(mesh.measurements() + most_measurements),
+        counts_(counts) {}
 
   // Returns what is still wrong.
   MeasuredMesh::Refused run(MeasuredMesh::Refused refused) {
     for (const Pass& pass : passes) {
-      if (refused.none()) break;
+      if (refused.none() || counts_.ended_early) break;
       pass_ = pass;
       run_pass(refused);
       refused = mesh_.refused_after(refused);
@@ -46,14 +50,22 @@ class Mender {
       {{false, false, {8, 12}}, {true, false, {8, 12}}, {true, true, {20, 200}}}};
 
   void run_pass(const MeasuredMesh::Refused& refused) {
-    for (const std::int32_t cell : refused.cells)
+    for (const std::int32_t cell : refused.cells) {
+      if (!goes_on()) return;
       if (is_wrong(cell)) mend(std::array{cell});
+    }
     for (const std::int32_t number : refused.faces) {
+      if (!goes_on()) return;
       const PolyhedralMesh::Face face = mesh_.mesh().faces[number];
       if (face.owner == no_index || (mesh_.refusals_of_face(number) & wrong) == 0) continue;
       const std::array cells{face.owner, face.neighbour};
       mend(std::span(cells).first(face.is_inner() ? 2 : 1));
     }
+  }
+
+  bool goes_on() {
+    counts_.ended_early = mesh_.measurements() >= last_measurement_;
+    return !counts_.ended_early;
   }
 
   bool is_wrong(std::int32_t cell) const { return mesh_.is_alive(cell) && (mesh_.refusals_of_cell(cell) & wrong) != 0; }
@@ -180,6 +192,7 @@ class Mender {
   MeasuredMesh& mesh_;
   double volume_;      // of the mesh
   double hexes_left_;  // volume of hexes that may still become polyhedra
+  std::int64_t last_measurement_;
   Pass pass_ = passes[0];
   MendCounts& counts_;
   std::set<std::int32_t> polyhedra_;  // cells that others merged into
@@ -194,7 +207,9 @@ double volume_of(const MeasuredMesh& mesh, bool hexes_alone) {
 
 }  // namespace
 
-MendCounts mend_polyhedra(PolyhedralMesh& mesh, const std::vector<LayerCell>& cells) {
+MendCounts mend_polyhedra(PolyhedralMesh& mesh, const std::vector<LayerCell>& cells,
+                          std::optional<std::int64_t> most_measurements) {
+  constexpr std::int64_t usual = 2'000'000, usual_of_each = 2;
   MendCounts counts;
   MeasuredMesh measured(mesh);
   const MeasuredMesh::Refused before = measured.refused();
@@ -203,7 +218,9 @@ MendCounts mend_polyhedra(PolyhedralMesh& mesh, const std::vector<LayerCell>& ce
   const double volume = volume_of(measured, false);
   counts.hexes_before = volume_of(measured, true) / volume;
   counts.halved = split_single_layers(measured, cells, before);
-  const auto after = Mender(measured, volume, counts).run(measured.refused_after(before));
+  const std::int64_t most =
+      most_measurements.value_or(usual + usual_of_each * static_cast<std::int64_t>(measured.cell_count()));
+  const auto after = Mender(measured, volume, most, counts).run(measured.refused_after(before));
   counts.refused = static_cast<std::int64_t>(after.count());
   counts.hexes = volume_of(measured, true) / volume;
   if (counts.changed()) renumber(mesh, measured.order());
@@ -223,6 +240,7 @@ std::string summary(const MendCounts& counts) {
     line +=
         fmt::format("{}checkMesh finds fault with {} cells and faces{}", line.empty() ? "" : "; ", counts.refused,
                     counts.refused < counts.refused_before ? fmt::format(", {} before", counts.refused_before) : "");
+  if (counts.ended_early) line += "; mending has ended at its limit of work";
   return line;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct MendCounts {
   double left_out_volume = 0;                    // their share of the volume, from 0 to 1
   double hexes_before = 0, hexes = 0;            // shares of the volume in hexes, from 0 to 1
   std::int64_t refused_before = 0, refused = 0;  // cells and faces with something wrong
+  bool ended_early = false;                      // at the limit of work
 
   bool changed() const { return halved + cut + merged + left_out + moves > 0; }
 };
@@ -48,9 +50,14 @@ std::int64_t split_single_layers(MeasuredMesh& mesh, std::vector<LayerCell> cell
 // Hexes become polyhedra only in the last of three passes, up to a thousandth of the volume. Regions, tagged facets
 // between cells, and borders between surfaces stay. `cells` has all hexes and prisms.
 //
+// After `most_measurements` calls of MeasuredMesh::measure_cell(), by default two million and two for each cell of the
+// mesh, it begins with no other cell or face: in thin layers at walls thousands are wrong, and nothing helps. The default
+// is 4 to 15 s; spot, which takes the longest of the models of tests/bench/checkmesh.py, needs 1.3 million.
+//
 // If anything has changed, cells have new numbers: halves follow each other, and a polyhedron has the place of the
 // first of its cells.
-MendCounts mend_polyhedra(PolyhedralMesh& mesh, const std::vector<LayerCell>& cells);
+MendCounts mend_polyhedra(PolyhedralMesh& mesh, const std::vector<LayerCell>& cells,
+                          std::optional<std::int64_t> most_measurements = std::nullopt);
 
 // A line for the user that says what was done, and what is left; empty if nothing was wrong.
 std::string summary(const MendCounts& counts);

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -206,6 +207,18 @@ TEST(Polyhedra, TetsWithTwoFacetsOnTheBoundaryMerge) {
   EXPECT_EQ(after.refused().count(), 0U);
   EXPECT_NEAR(volume_of_region(after, 0), 27, 1e-9);
   for (const auto& [surface, area] : areas_of_surfaces(after)) EXPECT_NEAR(norm(area - areas.at(surface)), 0, 1e-9);
+}
+
+TEST(Polyhedra, MendingEndsAtItsLimitOfWorkWithASoundMesh) {
+  Sample sample = lattice(3, 3, 3, [](Sample& at, const auto& cube, int) { add_tets(at, cube, 0); });
+  tag_sides(sample.mesh);
+  const MendCounts counts = mend_polyhedra(sample.mesh, sample.cells, 100);
+  EXPECT_TRUE(counts.ended_early);
+  EXPECT_GT(counts.refused, 0);
+  EXPECT_LT(counts.refused, counts.refused_before);
+  EXPECT_THAT(summary(counts), ::testing::HasSubstr("; mending has ended at its limit of work"));
+  expect_sound(sample.mesh);
+  EXPECT_NEAR(volume_of_region(MeasuredMesh(sample.mesh), 0), 27, 1e-9);
 }
 
 TEST(Polyhedra, NothingCrossesTheBorderOfARegionOrAFacetInside) {
