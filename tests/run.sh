@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs every test twice: compiled by g++ and optimized, and compiled by clang++ with asserts under the address and
-# undefined-behaviour sanitizers. Installs what is missing, treats warnings as errors. Ends with the closing line of ctest.
+# undefined-behaviour sanitizers, there without wrap (its CGAL takes too long; the preset `sanitize` has it). Installs what
+# is missing, treats warnings as errors. Ends with the closing line of ctest.
 #
 # What can wait for something else does not hold it up: most packages are installed while the optimized half compiles, and
 # the sanitized half compiles in the time that the optimized tests leave.
