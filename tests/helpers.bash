@@ -79,9 +79,13 @@ await() {
 
 # takes_signals PID: the tool has begun, and SIGINT reaches its own handler. To be awaited.
 takes_signals() {
-  local caught
-  caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status")
-  [[ -n "$caught" && "$(<"/proc/$1/comm")" != bash ]] && ((16#$caught & 2))
+  local name="" key value caught=""
+  # The name first: a shell catches signals, too, until it becomes the tool.
+  read -r name <"/proc/$1/comm" || return 1
+  while read -r key value; do
+    if [[ $key == SigCgt: ]]; then caught=$value; fi
+  done <"/proc/$1/status"
+  [[ -n $caught && $name != bash ]] && ((16#$caught & 2))
 }
 
 # waits_for_input PID: the tool has begun, and sleeps until something comes down a pipe. To be awaited.
