@@ -201,7 +201,7 @@ PYTHON
   $PYTHON "$DATA/lattices/lattice.py" kuhn 3 >lattice.mesh
   findhex --mesh lattice.mesh | buildgraph -o graph.tar
   mkfifo first second
-  initsol graph.tar --time-limit 60 >first &
+  initsol graph.tar --no-reductions --time-limit 60 >first &
   local searches=($!)
   lns <first >second &
   searches+=($!)
