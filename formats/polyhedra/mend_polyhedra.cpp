@@ -32,11 +32,12 @@ class Mender {
   // Returns what is still wrong.
   MeasuredMesh::Refused run(MeasuredMesh::Refused refused) {
     for (const Pass& pass : passes) {
-      if (refused.none() || counts_.ended_early) break;
+      if (refused.none() || is_at_limit()) break;
       pass_ = pass;
       run_pass(refused);
       refused = mesh_.refused_after(refused);
     }
+    counts_.ended_early = is_at_limit() && !refused.none();
     return refused;
   }
 
@@ -51,11 +52,11 @@ class Mender {
 
   void run_pass(const MeasuredMesh::Refused& refused) {
     for (const std::int32_t cell : refused.cells) {
-      if (!goes_on()) return;
+      if (is_at_limit()) return;
       if (is_wrong(cell)) mend(std::array{cell});
     }
     for (const std::int32_t number : refused.faces) {
-      if (!goes_on()) return;
+      if (is_at_limit()) return;
       const PolyhedralMesh::Face face = mesh_.mesh().faces[number];
       if (face.owner == no_index || (mesh_.refusals_of_face(number) & wrong) == 0) continue;
       const std::array cells{face.owner, face.neighbour};
@@ -63,10 +64,7 @@ class Mender {
     }
   }
 
-  bool goes_on() {
-    counts_.ended_early = mesh_.measurements() >= last_measurement_;
-    return !counts_.ended_early;
-  }
+  bool is_at_limit() const { return mesh_.measurements() >= last_measurement_; }
 
   bool is_wrong(std::int32_t cell) const { return mesh_.is_alive(cell) && (mesh_.refusals_of_cell(cell) & wrong) != 0; }
 

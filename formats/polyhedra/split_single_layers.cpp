@@ -270,7 +270,8 @@ class Splitter {
     const PolyhedralMesh::Face& face = mesh_.mesh().faces[number];
     if (face.owner == no_index) return;
     std::vector<VertexKey<2>> edges;
-    for_each_halved(face, [&](const VertexKey<2>& key) { edges.push_back(key); });
+    for (const auto& [a, b] : edges_of(mesh_.mesh().corners_of(face)))
+      if (middle_of(a, b) != nullptr) edges.push_back(edge_key(a, b));
     if (edges.empty()) return;
     const Vec3 normal = unit(mesh_.shape(number).area);
     if (!face.is_inner()) {
@@ -306,13 +307,11 @@ class Splitter {
     }
   }
 
-  // visit(key) for the edges of a face that are halved.
-  template <class Visit>
-  void for_each_halved(const PolyhedralMesh::Face& face, Visit&& visit) const {
-    for (const auto& [a, b] : edges_of(mesh_.mesh().corners_of(face))) {
-      if (is_end_[a] == 0 || is_end_[b] == 0) continue;
-      if (const auto key = edge_key(a, b); middles_.contains(key)) visit(key);
-    }
+  // The middle of an edge; nullptr: it is not halved.
+  const Middle* middle_of(Vertex a, Vertex b) const {
+    if (is_end_[a] == 0 || is_end_[b] == 0) return nullptr;
+    const auto found = middles_.find(edge_key(a, b));
+    return found == middles_.end() ? nullptr : &found->second;
   }
 
   void halve_cells() {
@@ -349,13 +348,12 @@ class Splitter {
     HalvedLoop result;
     for (const auto& [a, b] : edges_of(mesh_.mesh().corners_of(face))) {
       result.loop.push_back(a);
-      if (is_end_[a] == 0 || is_end_[b] == 0) continue;
-      const auto middle = middles_.find(edge_key(a, b));
-      if (middle == middles_.end()) continue;
+      const Middle* const middle = middle_of(a, b);
+      if (middle == nullptr) continue;
       // An edge of a face between halves may be halved by a third cell, and does not cut the face.
       if ((one != nullptr && is_along(*one, a, b)) || (two != nullptr && is_along(*two, a, b)))
         result.cuts.push_back(result.loop.size());
-      result.loop.push_back(middle->second.vertex);
+      result.loop.push_back(middle->vertex);
       result.has_middles = true;
     }
     return result;

@@ -13,8 +13,8 @@
 namespace hexpipe::lns_mpi {
 
 // The rows of the vertices that a rank owns: what it begins with. A vertex's key is its number in the whole graph.
-// Arrays have an entry for each vertex, those of neighbours one for each entry of a row: from offsets[v] to offsets[v +
-// 1].
+// Arrays have an entry for each vertex; the row of vertex v is neighbours[offsets[v]] up to, but without,
+// neighbours[offsets[v + 1]].
 struct OwnedRows {
   std::vector<std::uint64_t> keys;  // ascending
   std::vector<std::int32_t> blocks;

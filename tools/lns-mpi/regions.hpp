@@ -1,8 +1,8 @@
 #pragma once
 // Decides where each block may change the solution in a round. Each round has an order of the blocks. A block takes the
 // vertices that are at most `overlap` edges away from it and that no earlier block takes. So borders move from round to
-// round, and none stays where it is. Where an edge joins vertices of two blocks, the vertex of the later
-// block stays as it is. Then all blocks can be searched at the same time.
+// round, and none stays where it is. Where an edge joins vertices of two blocks, the vertex of the later block stays as
+// it is. Then all blocks can be searched at the same time.
 //
 // A rank may also search its blocks as one. Then no vertex has to stay between two of them. The order is still one of
 // blocks, so that one part of the border between two ranks moves to one side and another part to the other.

@@ -53,13 +53,6 @@ constexpr std::size_t count_between(const Word* set, std::size_t begin, std::siz
   return sum;
 }
 
-// Every member of `part` is a member of `set`.
-constexpr bool includes(const Word* set, const Word* part, std::size_t words) {
-  for (std::size_t w = 0; w < words; ++w)
-    if ((part[w] & ~set[w]) != 0) return false;
-  return true;
-}
-
 // Calls visit(i) for every member, ascending. Members that `visit` erases from later words are skipped.
 template <class Visit>
 constexpr void for_each(const Word* set, std::size_t words, Visit&& visit) {

@@ -1,11 +1,10 @@
 #pragma once
 // Simulated annealing from one local optimum to the next. A kick forces a random vertex in or out; pushes (a vertex
 // comes in, its chosen neighbours go out) and (1,2)-swaps make the surroundings locally optimal again. Metropolis' rule
-// accepts a loss or undoes all of it. The moves are those of iterated
-// local search for independent sets (Andrade, Resende, Werneck 2012; Nogueira, Pinheiro, Subramanian 2018); the
-// acceptance is that of basin hopping (Wales and Doye 1997). Iterated local search accepts only solutions that are not
-// worse than the best as a whole. A temperature lets every region of a large graph cross its own barriers at the same
-// time.
+// accepts a loss or undoes all of it. The moves are those of iterated local search for independent sets (Andrade,
+// Resende, Werneck 2012; Nogueira, Pinheiro, Subramanian 2018); the acceptance is that of basin hopping (Wales and Doye
+// 1997). Iterated local search accepts only solutions that are not worse than the best as a whole. A temperature lets
+// every region of a large graph cross its own barriers at the same time.
 
 #include <cstdint>
 #include <limits>

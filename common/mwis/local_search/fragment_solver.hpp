@@ -24,11 +24,9 @@ class FragmentSolver {
 
   // Copies the graph of the fragment; solve needs nothing else afterwards.
   void extract(FragmentGrower& grower);
-  //   budget          the most nodes of branch and bound for the exact operator; the kicks per vertex for the others
-  //   usual           temperatures that suit the whole graph
-  //   short_coolings  a search of the whole graph, if short coolings suit it. A fragment that is the whole graph
-  //   continues
-  //                   it; other fragments make their own.
+  // `budget` is the most nodes of branch and bound for the exact operator, and the kicks per vertex for the others.
+  // `usual` are temperatures that suit the whole graph. `short_coolings` is a search of the whole graph, if short
+  // coolings suit it: a fragment that is the whole graph continues it, others make their own.
   void solve(std::int64_t budget, Random random, const Deadline& deadline, const Cooling& usual = {},
              ShortCoolings* short_coolings = nullptr);
 
