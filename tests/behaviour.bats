@@ -94,6 +94,7 @@ product_ending() {
 }
 
 @test "a bad command line ends with 2 and one line" {
+  optimized_only "it is about the texts"
   for tool in $TOOLS; do
     assert_fails_with 2 "$tool: .*--no-such-option" $tool --no-such-option
     assert_fails_with 2 "$tool: .*threads" $tool --threads many
@@ -158,6 +159,7 @@ product_ending() {
 }
 
 @test "a seed that is negative or too large for 64 bits, and a time limit of NaN, end with 2" {
+  optimized_only "it is about the texts"
   for tool in initsol lns $(grep -oE "tetmesh|lns-mpi" <<<"$TOOLS"); do
     for seed in -1 18446744073709551616 1.5 ""; do
       assert_fails_with 2 "^$tool: --seed: expected a whole number" $tool "$STAGES/$tool.in" --seed "$seed"
@@ -186,6 +188,7 @@ product_ending() {
 }
 
 @test "a bundle is not written to a terminal" {
+  optimized_only "it is about the texts"
   for tool in $TOOLS; do
     run script -qec "$tool '$STAGES/$tool.in' 2>message" /dev/null </dev/null
     assert_equal "$status" 2
@@ -218,6 +221,7 @@ on_terminal() {
 }
 
 @test "nothing to read at a terminal ends with 2" {
+  optimized_only "it is about the texts"
   for tool in $READERS; do
     run script -qec "$tool -o out.tar" /dev/null </dev/null
     assert_equal "$status" 2

@@ -31,6 +31,7 @@ setup_file() {
 }
 
 @test "on a terminal, one line shows the stage at work, and what it has" {
+  optimized_only "it is about the line"
   # Iterations in place of seconds: on a busy machine the stages before it may take longer than those.
   TERM=xterm script -qec "hexpipe '$DATA/bracket.stl' --size 6 -o out.vtu --lns '--worth 0 --iterations 800'" /dev/null </dev/null |
     tr '\r' '\n' | sed 's/\x1b\[K//g' >shown
@@ -42,6 +43,7 @@ setup_file() {
 }
 
 @test "--dry-run prints a shell command that makes the same bytes, and does nothing" {
+  optimized_only "it is about results"
   run_apart quick -o "it's.vtu" --keep 'two words' --seed 3 --lns '--iterations 20' --initsol "--iterations 100" --dry-run
   assert_success
   assert [ ! -e "it's.vtu" ]
@@ -94,6 +96,7 @@ setup_file() {
 }
 
 @test "the boundary of a mesh from CAD lies on the CAD, and --from knows that it is CAD" {
+  optimized_only "it is about results"
   [[ -x "$HEXPIPE_BIN/fitcad" ]] || skip "fitcad is not built"
   hexpipe -q "$DATA/simp.step" --size 14 --effort quick --initsol '--iterations 100' --lns '--iterations 10' --keep stages -o simp.vtu --stats simp.json
   holds "simp['fitcad']['distance']['vertices'] < 1e-6 * simp['fitcad']['diagonal'] < simp['fitcad']['distance_before']['vertices'] * 1e3" simp.json

@@ -118,6 +118,7 @@ PYTHON
 }
 
 @test "a checkpoint of another graph, and a damaged one, are errors" {
+  optimized_only "cut-off checkpoints are read in the same way"
   on 2 --iterations 20 --checkpoint state -o one.sol
   "$PYTHON" "$DATA/ring_graph.py" 3000 1500 2 >other.graph
   initsol other.graph --iterations 0 -o other.sol
@@ -254,6 +255,7 @@ PYTHON
 }
 
 @test "more ranks than blocks, and bad input, are one line of one rank" {
+  optimized_only "it is about the texts"
   refuse() {
     local ranks=$1 message=$2
     shift 2
@@ -373,6 +375,7 @@ SHELL
 }
 
 @test "what goes wrong beside the solution does not cost it" {
+  optimized_only "it is about results"
   on 2 --iterations 30 --prove 2 -o whole.sol
   for side in log fragments certificate; do
     run on 2 --iterations 30 --prove 2 -o $side.sol --$side /dev/full
@@ -384,6 +387,7 @@ SHELL
 }
 
 @test "a run that goes on gives nothing lighter than what it was given" {
+  optimized_only "it is about results"
   # Reductions leave out u, which v could replace; x keeps v out, and p comes in, one lighter than u, until the search
   # gets there.
   "$PYTHON" - <<'PYTHON'

@@ -234,6 +234,7 @@ PYTHON
 }
 
 @test "Ctrl-C ends tetmesh once its pipe is read, and leaves no file" {
+  optimized_only "TetGen begins late there, and the signal is the same"
   cat "$DATA/cube.stl" | { tetmesh -q --size 0.02 -o out.tar & echo $! >tool; wait $! || echo $? >code; } &
   await test -s tool
   await pgrep -P "$(cat tool)"  # TetGen, once the surface is read

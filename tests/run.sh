@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Runs every test twice: compiled by g++ and optimized, and compiled by clang++ with asserts under the address and
-# undefined-behaviour sanitizers, there without wrap (its CGAL takes too long; the preset `sanitize` has it). Installs what
-# is missing, treats warnings as errors. Ends with the closing line of ctest.
+# Runs the tests of the tools twice: compiled by g++ and optimized, and compiled by clang++ with asserts under the address
+# and undefined-behaviour sanitizers. Unit tests run once, under the sanitizers, but for those that would take too long
+# there; so does wrap, whose CGAL takes too long to compile twice (the preset `sanitize` has it). Installs what is
+# missing, treats warnings as errors. Ends with the closing line of ctest.
 #
 # What can wait for something else does not hold it up: most packages are installed while the optimized half compiles, and
 # the sanitized half compiles in the time that the optimized tests leave.
@@ -24,8 +25,9 @@ outcome() {
   fi
 }
 
+# build PRESET OPTIONS...
 build() {
-  cmake --preset "$1"
+  cmake --preset "$@"
   cmake --build --preset "$1" --parallel "$jobs"
 }
 
@@ -53,7 +55,7 @@ choose_sanitizing_compiler() {
 ./bootstrap.sh compile-tests
 ./bootstrap.sh tests >"$logs/packages" 2>&1 &
 packages=$!
-build ci
+build ci -DHEXPIPE_UNIT_TESTS=slow
 outcome "$packages" "$logs/packages"
 
 set -m

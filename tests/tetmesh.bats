@@ -382,6 +382,7 @@ tetmesh: warning: outside.obj: --keep-baffles finds no sheet that ends inside"
 }
 
 @test "surfaces are read as other programs write them" {
+  optimized_only "the unit tests and the fuzzers read such files"
   # same_volume FILE: as the cube of 12 triangles has it
   same_volume() {
     run_apart tetmesh "$1" --surface keep --points none -o found.mesh
