@@ -9,6 +9,7 @@
 
 #include "common/curved/bernstein.hpp"
 #include "common/curved/nodes.hpp"
+#include "common/mesh/jacobian.hpp"
 #include "common/mesh/second_order.hpp"
 
 namespace hexpipe::curved {
@@ -198,13 +199,12 @@ void to_control_points(std::array<std::array<Vec3, 3>, 3>& layer) {
 }
 
 Grid hex_grid(const FullNodes& nodes) {
-  constexpr std::uint8_t at[2][2][2] = {{{0, 4}, {3, 7}}, {{1, 5}, {2, 6}}};
   Grid grid;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k < 3; ++k) {
         const int middles = (i == 1) + (j == 1) + (k == 1);
-        const std::uint8_t low = at[i / 2][j / 2][k / 2], high = at[(i + 1) / 2][(j + 1) / 2][(k + 1) / 2];
+        const int low = hex_corner_at[i / 2][j / 2][k / 2], high = hex_corner_at[(i + 1) / 2][(j + 1) / 2][(k + 1) / 2];
         if (middles == 0) grid[i][j][k] = nodes.corner(low);
         if (middles == 1) grid[i][j][k] = nodes.edge(low, high);
         // In the order x-, x+, y-, y+, z-, z+.
