@@ -86,6 +86,23 @@ ON_CYLINDER='sorted(abs(from_axis(q) - 2).max() < 7.5e-6 for q in of.values()) =
   holds_for fitted.tar '(norm(np.column_stack([from_axis(p) - 1, p[:, 2] - 2]), axis=1) < 1e-6).sum() >= 12'
 }
 
+@test "faces that meet at a small angle: vertices near a curve that belong on a face go there, and none is held" {
+  optimized_only "it is about results"
+  # A bar with three sides. At one end two of its corners have 6 degrees, and its sides are twisted.
+  cad bar 'Point(1) = {0, 0, 0}; Point(2) = {0, 0, 5}; Point(3) = {1, 0.84, 0}; Point(4) = {1, -0.84, 0}; Point(5) = {1, 9, 5}; Point(6) = {1, -9, 5};
+    Line(1) = {1, 2}; Line(2) = {3, 4}; Line(3) = {1, 3}; Line(4) = {1, 4}; Line(5) = {5, 6}; Line(6) = {2, 5}; Line(7) = {2, 6}; Line(8) = {3, 5}; Line(9) = {4, 6};
+    Curve Loop(1) = {7, -9, -4, 1}; Surface(1) = {1}; Curve Loop(3) = {6, -8, -3, 1}; Surface(2) = {3}; Curve Loop(5) = {3, 2, -4}; Surface(3) = {5};
+    Curve Loop(7) = {8, 5, -9, -2}; Surface(4) = {7}; Curve Loop(9) = {6, 5, -7}; Surface(5) = {9}; Surface Loop(1) = {5, 2, 4, 1, 3}; Volume(1) = {1};'
+  result bar 0.4
+  run_apart fitcad bar.tar -v -o bar.msh --stats bar.json
+  assert_success
+  holds 'bar["held"] == bar["strays"] == 0 and bar["distance"]["vertices"] < 1e-6 * bar["diagonal"] < bar["distance_before"]["vertices"]' bar.json
+  grep -Eq '[0-9]+ cells other than hexes became poorer than 0.02' <<<"$stderr"
+  holds 'bar["poorer_cells"] > 0' bar.json
+  holds 'bar["cells"]["hex"]["scaled_jacobian"]["least"] > 0.3' bar.json
+  assert_conforming bar.msh
+}
+
 @test "what is on the CAD to rounding stays where it is" {
   $PYTHON "$DATA/step.py" named >box.step
   result box 5

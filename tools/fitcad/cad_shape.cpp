@@ -20,6 +20,7 @@
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -65,11 +66,19 @@ struct EdgeSegments {
   std::vector<Simplex> simplices;
 };
 
+using Tags = std::vector<std::int32_t>;  // ascending
+
 // The nearest triangle of a face, or the nearest segment of an edge.
 struct Near {
   std::int32_t simplex;
   double distance;
 };
+
+Tags sorted_set(Tags tags) {
+  std::ranges::sort(tags);
+  tags.erase(std::ranges::unique(tags).begin(), tags.end());
+  return tags;
+}
 
 void keep_nearest(std::map<std::int32_t, Near>& found, std::int32_t owner, std::int32_t number, const Simplex& simplex,
                   const Vec3& to) {
@@ -91,6 +100,19 @@ struct CadShape::State {
   Foot foot_on(std::int32_t triangle, const Vec3& to, std::array<double, 2>& parameters) const;
   Foot foot_on_edge(const EdgeSegment& of, const Simplex& simplex, const Vec3& to) const;
   std::optional<Foot> nearest_foot(const EdgeSegments& of, const SimplexTree& tree, const Vec3& to, double slack) const;
+  std::optional<Foot> nearest_foot(const EdgeSegments& of, const SimplexTree& tree, const Vec3& to,
+                                   const std::map<std::int32_t, Near>& found) const;
+  std::map<std::int32_t, Near> features_near(const Vec3& to, double reach) const;
+  std::optional<Foot> foot_of_feature(const Vec3& to, double reach, std::map<std::int32_t, Near> found) const;
+
+  Foot in_mesh_unit(const Vec3& to, Foot foot) const {
+    foot.at *= 1 / unit;
+    foot.distance = norm(to - foot.at);
+    return foot;
+  }
+  std::optional<Foot> in_mesh_unit(const Vec3& to, const std::optional<Foot>& foot) const {
+    return foot ? std::optional(in_mesh_unit(to, *foot)) : std::nullopt;
+  }
 
   double unit;
   double diagonal = 0;
@@ -99,6 +121,8 @@ struct CadShape::State {
   std::vector<FaceTriangle> triangles;
   std::vector<Simplex> simplices;
   std::vector<std::optional<BRepAdaptor_Curve>> curves;  // by edge
+  std::vector<Tags> tags_around;                         // by edge: those of its faces
+  Tags tags;                                             // of all faces
   EdgeSegments edges, features;                          // all edges, and those that are features
   std::vector<Vec3> corners;
   std::vector<Vec3> nodes;
@@ -137,12 +161,18 @@ void CadShape::State::read(const pipeline::ExactShape& shape, const std::string&
   check("faces", shape.face_tags.size(), all_faces.Extent());
   check("edges", shape.edge_tags.size(), faces_of_edge.Extent());
   for (int i = 1; i <= all_faces.Extent(); ++i) add_face(TopoDS::Face(all_faces.FindKey(i)), shape.face_tags[i - 1]);
+  tags = sorted_set(shape.face_tags);
+  const auto tag_of = [&](const TopoDS_Shape& face) { return shape.face_tags[all_faces.FindIndex(face) - 1]; };
   curves.resize(static_cast<std::size_t>(faces_of_edge.Extent()));
+  tags_around.resize(curves.size());
   for (int i = 1; i <= faces_of_edge.Extent(); ++i) {
     const TopTools_ListOfShape& around = faces_of_edge.FindFromIndex(i);
     const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edge.FindKey(i));
     if (around.IsEmpty() || BRep_Tool::Degenerated(edge)) continue;
     curves[i - 1].emplace(edge);
+    Tags found;
+    for (const TopoDS_Shape& face : around) found.push_back(tag_of(face));
+    tags_around[i - 1] = sorted_set(std::move(found));
     add_edge(i - 1, edge, TopoDS::Face(around.First()), shape.edge_tags[i - 1] != 0);
   }
 }
@@ -233,12 +263,35 @@ std::optional<Foot> CadShape::State::nearest_foot(const EdgeSegments& of, const 
   std::map<std::int32_t, Near> found;
   for (const std::int32_t i : tree.within(to, tree.distance(to, infinity) * (1 + 1e-9) + slack))
     keep_nearest(found, of.of[i].edge, i, tree.simplex(i), to);
+  return nearest_foot(of, tree, to, found);
+}
+
+std::optional<Foot> CadShape::State::nearest_foot(const EdgeSegments& of, const SimplexTree& tree, const Vec3& to,
+                                                  const std::map<std::int32_t, Near>& found) const {
   std::optional<Foot> best;
   for (const auto& [edge, near] : found) {
     const Foot foot = foot_on_edge(of.of[near.simplex], tree.simplex(near.simplex), to);
     if (!best || foot.distance < best->distance) best = foot;
   }
   return best;
+}
+
+// The edges that are features and may have a point at most `reach` away.
+std::map<std::int32_t, Near> CadShape::State::features_near(const Vec3& to, double reach) const {
+  std::map<std::int32_t, Near> found;
+  for (const std::int32_t i : feature_tree->within(to, (1 + curve_slack) * reach))
+    keep_nearest(found, features.of[i].edge, i, features.simplices[i], to);
+  return found;
+}
+
+// The nearest point of some of these; nullopt if it is more than `reach` away.
+std::optional<Foot> CadShape::State::foot_of_feature(const Vec3& to, double reach,
+                                                     std::map<std::int32_t, Near> found) const {
+  double nearest = infinity;
+  for (const auto& [edge, near] : found) nearest = std::min(nearest, near.distance);
+  std::erase_if(found, [&](const auto& entry) { return entry.second.distance > nearest + curve_slack * reach; });
+  const std::optional<Foot> foot = nearest_foot(features, *feature_tree, to, found);
+  return foot && foot->distance <= reach ? foot : std::nullopt;
 }
 
 CadShape::CadShape(const pipeline::ExactShape& shape, const std::string& source)
@@ -262,19 +315,25 @@ Foot CadShape::on_faces(const Vec3& to, double reach, std::span<const std::int32
   }
   // The nearest points of all these surfaces are beyond the borders of their faces, so the nearest one is on an edge.
   if (!inside) inside = s.nearest_foot(s.edges, *s.edge_tree, p, s.unit * reach);
-  Foot result = inside.value_or(any);
-  result.at *= 1 / s.unit;
-  result.distance = norm(to - result.at);
-  return result;
+  return s.in_mesh_unit(to, inside.value_or(any));
 }
 
-std::optional<Foot> CadShape::on_curves(const Vec3& to, double reach) const {
+std::optional<Foot> CadShape::on_curves(const Vec3& to, double reach, std::span<const std::int32_t> tags) const {
   const State& s = *state_;
-  std::optional<Foot> foot = s.nearest_foot(s.features, *s.feature_tree, s.unit * to, curve_slack * s.unit * reach);
-  if (!foot || foot->distance > s.unit * reach) return std::nullopt;
-  foot->at *= 1 / s.unit;
-  foot->distance = norm(to - foot->at);
-  return foot;
+  Tags wanted(tags.begin(), tags.end());
+  std::ranges::sort(wanted);
+  std::map<std::int32_t, Near> found = s.features_near(s.unit * to, s.unit * reach);
+  const auto is_wanted = [&](const auto& entry) { return s.tags_around[entry.first] == wanted; };
+  if (std::ranges::any_of(found, is_wanted)) std::erase_if(found, std::not_fn(is_wanted));
+  return s.in_mesh_unit(to, s.foot_of_feature(s.unit * to, s.unit * reach, std::move(found)));
+}
+
+std::optional<Foot> CadShape::on_curves_within(const Vec3& to, double reach, std::int32_t tag) const {
+  const State& s = *state_;
+  std::map<std::int32_t, Near> found = s.features_near(s.unit * to, s.unit * reach);
+  if (std::ranges::binary_search(s.tags, tag))
+    std::erase_if(found, [&](const auto& entry) { return s.tags_around[entry.first] != Tags{tag}; });
+  return s.in_mesh_unit(to, s.foot_of_feature(s.unit * to, s.unit * reach, std::move(found)));
 }
 
 std::optional<Vec3> CadShape::on_corners(const Vec3& to, double reach) const {

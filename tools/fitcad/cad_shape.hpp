@@ -34,8 +34,10 @@ class CadShape {
   // one. If some of these have one of the tags, the others do not count.
   Foot on_faces(const Vec3& to, double reach, std::span<const std::int32_t> tags = {}) const;
   // The nearest point of the curves that are features (as tessellate marks them); nullopt if it is more than `reach`
-  // away.
-  std::optional<Foot> on_curves(const Vec3& to, double reach) const;
+  // away. If some curves within reach have faces of just these tags around them, the others do not count.
+  std::optional<Foot> on_curves(const Vec3& to, double reach, std::span<const std::int32_t> tags) const;
+  // The same for curves that have this tag on all sides; for all curves if no face has the tag.
+  std::optional<Foot> on_curves_within(const Vec3& to, double reach, std::int32_t tag) const;
   // The nearest end of such a curve; nullopt if it is more than `reach` away.
   std::optional<Vec3> on_corners(const Vec3& to, double reach) const;
 

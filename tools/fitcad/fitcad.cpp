@@ -139,6 +139,7 @@ nlohmann::ordered_json to_json(const FitcadResult& result) {
           {"moved_inside", result.counts.inside},
           {"slid", result.counts.slid},
           {"held", result.counts.held},
+          {"poorer_cells", result.counts.poorer},
           {"strays", result.strays},
           {"diagonal", result.diagonal},
           {"distance_before", to_json(result.before)},

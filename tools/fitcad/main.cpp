@@ -23,6 +23,10 @@ void report(RunContext& context, const FitcadResult& result) {
                   result.boundary, result.on_curves, result.on_corners, result.after.vertices, result.before.vertices));
   context.note(fmt::format("the boundary is within {:.3g} of the CAD, and the CAD within {:.3g} of the boundary",
                            result.after.to_cad, result.after.from_cad));
+  if (result.counts.poorer > 0)
+    context.note(
+        fmt::format("{} cells other than hexes became poorer than 0.02, so that vertices beside them are on the CAD",
+                    result.counts.poorer));
   if (result.counts.held > 0)
     context.warn(
         fmt::format("{} of {} vertices of the boundary stay up to {:.3g} off the CAD, because cells would "

@@ -15,7 +15,8 @@ namespace hexpipe::fitcad {
 namespace {
 
 constexpr double most_loss = 0.1;    // of the quality of cells that are poorer
-constexpr double poor = 0.02;        // no cell becomes poorer than that, where vertices would be held otherwise
+constexpr double poor = 0.02;        // no cell becomes poorer than that as long as halves of quality are lost only once
+constexpr int most_losses = 4;       // after that, for vertices that would still be held
 constexpr int rounds_of_room = 6;    // before the boundary gives way
 constexpr int rounds_inside = 3;     // of these, before vertices of the boundary slide, too
 constexpr double most_slide = 0.15;  // in lengths of the edges there: longer edges leave a curved face further behind
@@ -25,6 +26,7 @@ constexpr double smallest_share = 0.2;
 struct Cell {
   CellKind kind;
   std::array<Vertex, 8> corners;
+  double first_floor = 0;
   double floor = 0;
 };
 
@@ -52,11 +54,10 @@ class BoundaryMover {
   MoveCounts run() {
     for (std::size_t v = 0; v < share_.size(); ++v)
       if (!is_inside(static_cast<Vertex>(v))) set_share(static_cast<Vertex>(v), 1);
-    settle();
-    if (!go_on()) {
-      lower_floors();
-      settle();
-      go_on();
+    if (!settled()) {
+      lower_floors(poor);
+      if (!settled()) leave_curves();
+      for (int i = 0; !settled() && i < most_losses; ++i) lower_floors(0);
     }
     return counts();
   }
@@ -65,10 +66,11 @@ class BoundaryMover {
   template <int N>
   void add(const CellBlock<N>& block, CellKind kind) {
     for (const auto& corners : block.cells) {
-      Cell cell{kind, {}, 0};
+      Cell cell{kind, {}};
       std::ranges::copy(corners, cell.corners.begin());
       const double quality = quality_of(cell), enough = kind == CellKind::hex ? least_hex_quality : good_enough;
-      cell.floor = quality > enough ? enough : quality - most_loss * std::abs(quality);
+      cell.first_floor = quality > enough ? enough : quality - most_loss * std::abs(quality);
+      cell.floor = cell.first_floor;
       cells_.push_back(cell);
     }
   }
@@ -86,6 +88,7 @@ class BoundaryMover {
     return !is_valid(cell.kind, std::span(points).first(corners_of(cell).size()));
   }
   bool is_inside(Vertex v) const { return targets_.of[v].place == Place::inside; }
+  bool is_held(Vertex v) const { return !is_inside(v) && share_[v] < 1; }
 
   void set_share(Vertex v, double share) {
     share_[v] = share;
@@ -194,6 +197,12 @@ class BoundaryMover {
     set_share(v, 1);
   }
 
+  // Returns whether all vertices are where they belong.
+  bool settled() {
+    settle();
+    return go_on();
+  }
+
   // Makes every cell good again. Each pass takes vertices back towards their start or keeps others there, so that it
   // ends.
   void settle() {
@@ -207,24 +216,39 @@ class BoundaryMover {
   }
 
   // Where vertices are held, poor cells other than hexes may become poorer, and all may try again.
-  void lower_floors() {
-    for (Cell& cell : cells_) {
-      const bool is_held =
-          std::ranges::any_of(corners_of(cell), [&](Vertex v) { return !is_inside(v) && share_[v] < 1; });
-      if (is_held && cell.kind != CellKind::hex) cell.floor = std::min(cell.floor, std::max(poor, cell.floor / 2));
-    }
-    for (std::size_t v = 0; v < share_.size(); ++v) {
-      stays_[v] = false;
-      if (!is_inside(static_cast<Vertex>(v)) && share_[v] < 1) set_share(static_cast<Vertex>(v), 1);
-    }
+  void lower_floors(double least) {
+    for (Cell& cell : cells_)
+      if (cell.kind != CellKind::hex && std::ranges::any_of(corners_of(cell), [&](Vertex v) { return is_held(v); }))
+        cell.floor = std::min(cell.floor, std::max(least, cell.floor / 2));
+    try_again();
   }
 
-  // Vertices that gave way may have had no reason of their own. Returns whether all are where they belong.
+  // Held vertices may go to a face instead of a curve if no edge between tags needs the curve, and all may try again.
+  void leave_curves() {
+    bool is_any = false;
+    for (std::size_t i = 0; i < share_.size(); ++i) {
+      const auto v = static_cast<Vertex>(i);
+      Target& target = targets_.of[v];
+      if (!is_held(v) || target.place != Place::curve || !target.may_leave) continue;
+      target = {Place::face, targets_.on_face(shape_, v, start_[v])};
+      first_[v] = target.at;
+      is_any = true;
+    }
+    if (is_any) try_again();
+  }
+
+  void try_again() {
+    stays_.assign(stays_.size(), false);
+    for (std::size_t v = 0; v < share_.size(); ++v)
+      if (is_held(static_cast<Vertex>(v))) set_share(static_cast<Vertex>(v), 1);
+  }
+
+  // Vertices that gave way may have had no reason of their own. Returns whether none is held any more.
   bool go_on() {
     bool all = true;
     for (std::size_t i = 0; i < share_.size(); ++i) {
       const auto v = static_cast<Vertex>(i);
-      if (is_inside(v) || share_[v] == 1) continue;
+      if (!is_held(v)) continue;
       const double share = share_[v];
       set_share(v, 1);
       if (std::ranges::any_of(cells_at_.at(v), [&](std::int32_t c) { return is_bad(cells_[c]); })) {
@@ -241,8 +265,10 @@ class BoundaryMover {
       const auto v = static_cast<Vertex>(i);
       if (mesh_.points[v] != start_[v]) ++(is_inside(v) ? result.inside : result.moved);
       result.slid += slid_[v] && share_[v] == 1;
-      result.held += !is_inside(v) && share_[v] < 1;
+      result.held += is_held(v);
     }
+    for (const Cell& cell : cells_)
+      if (cell.floor < cell.first_floor) result.poorer += quality_of(cell) < std::min(poor, cell.first_floor);
     return result;
   }
 

@@ -13,7 +13,8 @@ namespace {
 // tetmesh and assemble do not move vertices at the ends of the CAD's curves, but for rounding.
 constexpr double corner_reach = 1e-3;
 // An edge of the mesh lies along a curve if its ends are this near to one, and its middle as near as the middle of a
-// chord may be. All curves that are features are edges of the mesh.
+// chord may be. All curves that are features are edges of the mesh: those between tags are edges between these tags, so
+// other edges can only be along a curve with one tag around it.
 constexpr double end_reach = 0.04, middle_reach = 0.2;
 // A face may be the nearest one though its triangles are further away than those of another, by up to this much.
 constexpr double face_reach = 0.1;
@@ -21,12 +22,20 @@ constexpr double face_reach = 0.1;
 // By the diagonal: a vertex this near to its place does not move, so flat faces stay flat to the last bit.
 constexpr double rounding = 1e-12;
 
+enum class OnCurve : std::uint8_t { no, within_tag, between_tags };
+
 // What the facets at an edge of the boundary say of it.
 struct BoundaryEdge {
   std::int32_t facets = 0;
   std::int32_t tag = 0;
   bool between_tags = false;
 };
+
+// The nearest point of the curves on which a vertex with these tags may be.
+std::optional<Foot> curve_foot(const CadShape& shape, const Vec3& to, double reach,
+                               const std::vector<std::int32_t>& tags, bool may_leave) {
+  return may_leave ? shape.on_curves_within(to, reach, tags.front()) : shape.on_curves(to, reach, tags);
+}
 
 class TargetSearch {
  public:
@@ -79,24 +88,28 @@ class TargetSearch {
   void find_curve_vertices() {
     on_curve_.resize(mesh_.points.size());
     for (const auto& [ends, edge] : edges_) {
-      if (!edge.between_tags && edge.facets == 2 && !is_along_curve(ends)) continue;
-      for (const Vertex v : ends) on_curve_[v] = true;
+      const bool between_tags = edge.between_tags || edge.facets != 2;
+      if (!between_tags && !is_along_curve(ends, edge.tag)) continue;
+      for (const Vertex v : ends)
+        on_curve_[v] = std::max(on_curve_[v], between_tags ? OnCurve::between_tags : OnCurve::within_tag);
     }
   }
 
-  bool is_along_curve(const VertexKey<2>& ends) const {
+  bool is_along_curve(const VertexKey<2>& ends, std::int32_t tag) const {
     const Vec3 &a = mesh_.points[ends[0]], &b = mesh_.points[ends[1]];
     const double length = norm(b - a);
-    return shape_.on_curves(a, end_reach * length) && shape_.on_curves(b, end_reach * length) &&
-           shape_.on_curves(0.5 * (a + b), middle_reach * length);
+    return shape_.on_curves_within(a, end_reach * length, tag) && shape_.on_curves_within(b, end_reach * length, tag) &&
+           shape_.on_curves_within(0.5 * (a + b), middle_reach * length, tag);
   }
 
   Target target_of(Vertex v) const {
     const Vec3& p = mesh_.points[v];
     const double length = lengths_[v];
-    if (on_curve_[v]) {
+    if (on_curve_[v] != OnCurve::no) {
       if (const auto corner = shape_.on_corners(p, corner_reach * length)) return {Place::corner, *corner};
-      if (const auto foot = shape_.on_curves(p, reach_ * length)) return {Place::curve, foot->at};
+      const bool may_leave = on_curve_[v] == OnCurve::within_tag;
+      if (const auto foot = curve_foot(shape_, p, reach_ * length, tags_[v], may_leave))
+        return {Place::curve, foot->at, may_leave};
     }
     return {Place::face, shape_.on_faces(p, face_reach * length, tags_[v]).at};
   }
@@ -108,16 +121,20 @@ class TargetSearch {
   std::vector<double> lengths_;
   std::vector<std::int32_t> edge_counts_;
   std::vector<std::vector<std::int32_t>> tags_;
-  std::vector<bool> on_curve_;
+  std::vector<OnCurve> on_curve_;
 };
 
 }  // namespace
 
+Vec3 Targets::on_face(const CadShape& shape, Vertex v, const Vec3& to) const {
+  return shape.on_faces(to, face_reach * lengths[v], tags[v]).at;
+}
+
 Vec3 Targets::slid(const CadShape& shape, Vertex v, const Vec3& to) const {
   const Target& target = of[v];
-  if (target.place == Place::face) return shape.on_faces(to, face_reach * lengths[v], tags[v]).at;
+  if (target.place == Place::face) return on_face(shape, v, to);
   if (target.place != Place::curve) return target.at;
-  const auto foot = shape.on_curves(to, lengths[v]);
+  const auto foot = curve_foot(shape, to, lengths[v], tags[v], target.may_leave);
   return foot ? foot->at : target.at;
 }
 

@@ -13,7 +13,8 @@ enum class Place : std::uint8_t { inside, face, curve, corner };  // inside: the
 
 struct Target {
   Place place = Place::inside;
-  Vec3 at;  // where the vertex is to go; without meaning inside
+  Vec3 at;                 // where the vertex is to go; without meaning inside
+  bool may_leave = false;  // a curve: the vertex is on no edge between tags, so one of the faces will do
 };
 
 struct Targets {
@@ -22,6 +23,8 @@ struct Targets {
   std::vector<double> lengths;                  // by vertex: the mean length of the edges of its facets
   std::vector<std::vector<std::int32_t>> tags;  // by vertex: those of its facets
 
+  // The nearest point of the faces with the tags of a vertex.
+  Vec3 on_face(const CadShape& shape, Vertex v, const Vec3& to) const;
   // Where a vertex goes on the CAD if it slides towards `to`: the nearest point of the curves, or of the faces with its
   // tags. A vertex with a corner as its target does not slide.
   Vec3 slid(const CadShape& shape, Vertex v, const Vec3& to) const;
