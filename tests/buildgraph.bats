@@ -37,7 +37,7 @@ setup_file() {
 @test "--weight and --weight-scale say what a candidate is worth" {
   local cand="$INPUTS/hexes.cand"
   buildgraph "$cand" -o plain.graph
-  for weight in quality volume count 'quality*volume'; do
+  for weight in quality volume count 'quality*volume' 'quality^0.3*volume'; do
     for scale in 1000 1e6; do
       buildgraph "$cand" --weight "$weight" --weight-scale $scale -o w.graph
       run "$CHECKERS/graph_from_candidates.py" "$cand" w.graph --weight "$weight" --weight-scale $scale

@@ -11,7 +11,7 @@
 namespace hexpipe::conflicts {
 
 // How the weight of a candidate, an integer, is computed.
-enum class WeightKind { quality, volume, count, quality_volume };
+enum class WeightKind { quality, volume, count, quality_volume, mild_quality_volume };
 
 // Returns round(scale * w), at least 0. Throws DataError naming `source` when a quality or volume is negative, or the
 // sum does not fit 64 bits.

@@ -49,7 +49,8 @@ void append(std::span<const QuadOfCandidate> at_quad, QuadList& list) {
 }
 
 double worth_at_best(const Candidates& candidates, CandidateIndex i, WeightKind kind) {
-  const bool by_volume = kind == WeightKind::volume || kind == WeightKind::quality_volume;
+  const bool by_volume =
+      kind == WeightKind::volume || kind == WeightKind::quality_volume || kind == WeightKind::mild_quality_volume;
   return by_volume ? candidates.volume[i] : 1;
 }
 

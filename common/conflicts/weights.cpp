@@ -7,6 +7,9 @@
 namespace hexpipe::conflicts {
 namespace {
 
+// As the exchange of hexes in assemble weighs them.
+constexpr double power_of_quality = 0.3;
+
 double worth(const Candidates& candidates, std::size_t i, WeightKind kind) {
   switch (kind) {
     case WeightKind::quality:
@@ -15,6 +18,8 @@ double worth(const Candidates& candidates, std::size_t i, WeightKind kind) {
       return candidates.volume[i];
     case WeightKind::quality_volume:
       return candidates.quality[i] * candidates.volume[i];
+    case WeightKind::mild_quality_volume:
+      return std::pow(candidates.quality[i], power_of_quality) * candidates.volume[i];
     case WeightKind::count:
       break;
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""graph_from_candidates.py FILE.cand FILE.graph [--weight quality|volume|count|quality*volume] [--weight-scale S]
+"""graph_from_candidates.py FILE.cand FILE.graph [--weight quality|volume|count|quality*volume|quality^0.3*volume] [--weight-scale S]
 
 Is this the conflict graph of these candidates? Compares all pairs by the table of ALGORITHMS.md 2, written as what two
 cells may share: nothing, a vertex, an edge, a triangle or a quad, each of both. Seconds for a thousand candidates.
@@ -38,7 +38,8 @@ class Cell:
 
     def weight(self, kind, scale):
         quality, volume = float(self.quality), float(self.volume)
-        worth = {"quality": quality, "volume": volume, "count": 1, "quality*volume": quality * volume}[kind]
+        worth = {"quality": quality, "volume": volume, "count": 1, "quality*volume": quality * volume,
+                 "quality^0.3*volume": quality ** 0.3 * volume}[kind]
         return scale * worth
 
 

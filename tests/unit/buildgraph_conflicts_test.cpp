@@ -192,6 +192,7 @@ TEST(Weights, AreRoundedAfterScaling) {
   EXPECT_THAT(weights_of(c, WeightKind::volume, 1e6, "test"), ElementsAre(3000000));
   EXPECT_THAT(weights_of(c, WeightKind::count, 1e6, "test"), ElementsAre(1000000));
   EXPECT_THAT(weights_of(c, WeightKind::quality_volume, 1e6, "test"), ElementsAre(370370));
+  EXPECT_THAT(weights_of(c, WeightKind::mild_quality_volume, 1e6, "test"), ElementsAre(1601680));
 }
 
 TEST(Weights, ThatDoNotFitAreErrors) {

@@ -14,10 +14,12 @@ using namespace hexpipe;
 using namespace hexpipe::buildgraph;
 
 int main(int argc, char** argv) {
-  const std::map<std::string, conflicts::WeightKind> weights{{"quality", conflicts::WeightKind::quality},
-                                                             {"volume", conflicts::WeightKind::volume},
-                                                             {"count", conflicts::WeightKind::count},
-                                                             {"quality*volume", conflicts::WeightKind::quality_volume}};
+  const std::map<std::string, conflicts::WeightKind> weights{
+      {"quality", conflicts::WeightKind::quality},
+      {"volume", conflicts::WeightKind::volume},
+      {"count", conflicts::WeightKind::count},
+      {"quality*volume", conflicts::WeightKind::quality_volume},
+      {"quality^0.3*volume", conflicts::WeightKind::mild_quality_volume}};
   const ToolInfo info{
       .name = "buildgraph",
       .summary = "Compare candidates: the graph of those that cannot both be chosen.",
@@ -28,7 +30,10 @@ int main(int argc, char** argv) {
   BuildgraphOptions options;
   std::string weight = "quality", part = "1/1";
   const auto declare = [&](CLI::App& app) {
-    app.add_option("--weight", weight, "The weight of a candidate: quality, volume, count (1 each) or quality*volume")
+    app.add_option(
+           "--weight", weight,
+           "The weight of a candidate: quality, volume, count (1 each), quality*volume, or quality^0.3*volume as "
+           "assemble's exchange weighs hexes, which suits --quad-reward")
         ->check(CLI::IsMember(weights));
     app.add_option(
            "--quad-reward", options.quad_reward,
