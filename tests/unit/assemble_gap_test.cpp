@@ -594,7 +594,7 @@ TEST(FaceCosts, OfCellsThatAreThereAreThoseOfTheSameCellsPlanned) {
 }
 
 TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
-  std::int64_t changed = 0, merged_on_surface = 0;
+  std::int64_t changed = 0, merged_on_surface = 0, closed = 0;
   constexpr std::int64_t seeds = hexpipe::testing::random_cases(2000);
   for (std::int64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
@@ -611,10 +611,11 @@ TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
     ASSERT_FALSE(after.crowded);
     ASSERT_NEAR(after.volume, before.volume, 1e-10);
     const auto opened = static_cast<std::int64_t>(counts.opened.size());
-    ASSERT_TRUE(counts.on_surface > 0 || opened > 0 || after.skin() == before.skin());
-    ASSERT_TRUE(opened > 0 || after.quads_of_skin() == before.quads_of_skin());
+    ASSERT_TRUE(counts.on_surface + counts.closed + opened > 0 || after.skin() == before.skin());
+    ASSERT_TRUE(counts.closed + opened > 0 || after.quads_of_skin() == before.quads_of_skin());
     ASSERT_TRUE(has_tagged_skin(after, scene.tags));
     merged_on_surface += counts.on_surface > 0;
+    closed += counts.closed;
     ASSERT_GE(after.worst, std::min(before.worst, least_quality) - 1e-12);
     // Hexes grow at the cost of other cells, until they have back what they lost.
     ASSERT_TRUE(counts.grown == 0 || (passes == Passes::mend && scene.hex_volume() < hex_volume + 1e-9));
@@ -629,6 +630,77 @@ TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
   }
   EXPECT_GT(changed, seeds / 2);
   EXPECT_GT(merged_on_surface, seeds * 3 / 20);
+  EXPECT_GT(closed, seeds / 200);
+}
+
+// Three tets around the edge from a to b, and one more on a facet at a: without the edge only that one is left, with b.
+TEST(Refill, AsIfTwoVerticesWereOneLeavesWhatIsNotBetweenThem) {
+  TetMesh mesh;
+  mesh.points = {{1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {0, 0, 0.4}, {0, 0, -0.1}, {0.6, 1, 1}};
+  const Vertex a = 3, b = 4, beside = 5;
+  mesh.tets = {{0, 1, a, b}, {1, 2, a, b}, {2, 0, a, b}, {0, 1, beside, a}};
+  for (Tet& tet : mesh.tets)
+    if (quality_of(CellKind::tet, mesh.points, tet) < 0) std::swap(tet[0], tet[1]);
+  mesh.tet_tags.assign(4, 1);
+  const SurfaceTags tags(mesh);
+  HybridMesh hybrid(mesh, std::vector<bool>(4));
+  const GapMesh gap(hybrid, tags, {});
+  Refill refill(gap);
+  const auto all = all_cells(gap);
+  const auto between = refill.find_merged(std::span(all).first(3), a, b, 0.01, 10);
+  ASSERT_TRUE(between);
+  EXPECT_TRUE(between->empty());
+  const auto left = refill.find_merged(all, a, b, 0.01, 10);
+  ASSERT_TRUE(left);
+  ASSERT_EQ(left->size(), 1u);
+  EXPECT_TRUE(std::ranges::is_permutation(left->front().vertices(), std::array<Vertex, 4>{0, 1, b, beside}));
+  EXPECT_FALSE(refill.find_merged(all, a, b, 0.99, 10));
+}
+
+TEST(FewerCells, WhereAGapClosesCellsAreFewerAndHexesStayGood) {
+  const auto hexes_of = [](const GapMesh& gap) {
+    std::pair<int, double> number_and_least{0, 1};
+    for (const auto k : indices<KeptIndex>(gap.kept_count())) {
+      const KeptCell& cell = gap.kept_cell(k);
+      if (cell.kind != CellKind::hex) continue;
+      ++number_and_least.first;
+      number_and_least.second = std::min(number_and_least.second, quality_of(cell.kind, gap.points(), cell.vertices()));
+    }
+    return number_and_least;
+  };
+  std::int64_t closed_in_all = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    ConformingScene scene(seed, Random(seed));
+    GapMesh gap(scene.hybrid, scene.tags, {});
+    if (!gap.is_valid()) continue;
+    const auto hexes = hexes_of(gap);
+    const auto cells = all_cells(gap).size();
+    const std::int64_t closed = close_gaps(gap, scene.tags, scene.input);
+    if (closed == 0) continue;
+    closed_in_all += closed;
+    EXPECT_LT(all_cells(gap).size(), cells);
+    EXPECT_EQ(hexes_of(gap).first, hexes.first);
+    EXPECT_GE(hexes_of(gap).second, std::min(hexes.second, least_hex_quality));
+    gap.write_back();
+    const GapMesh again(scene.hybrid, scene.tags, {});
+    EXPECT_TRUE(again.is_valid());
+    EXPECT_EQ(hexes_of(again), hexes_of(gap));
+    EXPECT_EQ(all_cells(again).size(), all_cells(gap).size());
+    EXPECT_FALSE(Census(scene.hybrid).crowded);
+  }
+  EXPECT_GT(closed_in_all, 0);
+}
+
+// Vertices that several pieces of a mesh have stay, and so do chosen cells with such a vertex.
+TEST(FewerCells, NoGapClosesBesideWhatSeveralPiecesHave) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    ConformingScene scene(seed, Random(seed));
+    const std::vector<std::uint8_t> is_shared(scene.hybrid.points.size(), 1);
+    GapMesh gap(scene.hybrid, scene.tags, is_shared);
+    if (!gap.is_valid()) continue;
+    EXPECT_EQ(close_gaps(gap, scene.tags, scene.input), 0);
+  }
 }
 
 // Two layers of cubes, the lower one thin, less one of its cubes: what fills it is flat, and all its vertices but one

@@ -210,7 +210,9 @@ TEST(PointStar, TheBestPlaceInAnOctahedronIsItsMiddle) {
 
 TEST(Freedom, SidesEdgesAndCornersOfABox) {
   const auto lattice = make_lattice(2);
-  const auto mesh = assemble::assemble(lattice.mesh, lattice.cubes, {0, 1, 2}, {}).mesh;
+  const auto mesh =
+      assemble::assemble(lattice.mesh, lattice.cubes, {0, 1, 2}, {.merge = assemble::AssembleOptions::Merge::none})
+          .mesh;
   const auto freedoms = vertex_freedoms(mesh);
   std::array<int, 4> found{};
   for (std::size_t v = 0; v < 27; ++v) ++found[static_cast<int>(freedoms[v].kind)];

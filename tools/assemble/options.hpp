@@ -17,7 +17,7 @@ struct AssembleOptions {
   // prisms: tets between the chosen cells become prisms (choice/prism_filling.hpp). Only if the result conforms.
   enum class Fill { prisms, none };
   Fill fill = Fill::prisms;
-  // vertices: vertices between the cells that no hex uses merge, and rooms there are filled anew (gap/fewer_cells.hpp).
+  // vertices: vertices between the cells merge, gaps close, and rooms there are filled anew (gap/fewer_cells.hpp).
   // Only if the result conforms and is smoothed.
   enum class Merge { vertices, none };
   Merge merge = Merge::vertices;

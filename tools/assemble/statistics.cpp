@@ -245,7 +245,7 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                        {"vertices_added_at_flat_tets", statistics.improvement.vertices},
                        {"flat_tets_taken_off", statistics.improvement.peeled}};
   const gap::FewerCells& fewer = statistics.improvement.fewer;
-  json["merging"] = {{"vertices_gone", fewer.merged}, {"rooms_filled_anew", fewer.refilled}};
+  json["merging"] = {{"vertices_gone", fewer.merged + fewer.closed}, {"rooms_filled_anew", fewer.refilled}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   if (statistics.pillow) json["pillow"] = json_of(*statistics.pillow);
   if (statistics.layers) json["layers"] = json_of(*statistics.layers);
@@ -307,7 +307,7 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
   if (const gap::FewerCells& fewer = statistics.improvement.fewer; fewer.any())
     lines.push_back(
         fmt::format("{} vertices between the hexes merged into others, {} rooms there filled with better cells",
-                    fewer.merged, fewer.refilled));
+                    fewer.merged + fewer.closed, fewer.refilled));
   if (!statistics.poor.empty())
     lines.push_back(fmt::format("{} poor cells are left (hexes below 0.1, others below 0.02); --stats lists them",
                                 statistics.poor.size()));

@@ -27,6 +27,12 @@ FewerCells merge_and_refill(GapMesh& gap, const Surface& surface) {
   const RefillCounts refilled = refill_rooms(gap);
   counts.merged += refilled.vertices + merge_stars(gap, true);
   counts.refilled = refilled.edges + refilled.poor;
+  std::vector<std::uint32_t> ages = ages_of_vertices(gap);
+  counts.closed = close_gaps(gap, surface.tags, surface.input);
+  if (counts.closed == 0) return counts;
+  const RefillCounts again = refill_rooms_since(gap, std::move(ages));
+  counts.merged += again.vertices;
+  counts.refilled += again.edges + again.poor;
   return counts;
 }
 

@@ -14,15 +14,16 @@ namespace hexpipe::assemble::gap {
 struct FewerCells {
   std::int64_t merged = 0;        // vertices that no hex uses, into others
   std::int64_t on_surface = 0;    // of these, along the surface
+  std::int64_t closed = 0;        // vertices of chosen cells, across the gap between them
   std::int64_t refilled = 0;      // rooms
   std::int64_t mended = 0;        // cells, in the last pass
   std::int64_t grown = 0;         // moves out of hexes, in the last pass
   std::vector<CellIndex> opened;  // chosen cells that are gone
 
-  bool any() const { return merged + refilled + mended + grown > 0 || !opened.empty(); }
+  bool any() const { return merged + closed + refilled + mended + grown > 0 || !opened.empty(); }
   FewerCells& operator+=(const FewerCells& more) {
-    merged += more.merged, on_surface += more.on_surface, refilled += more.refilled;
-    mended += more.mended, grown += more.grown;
+    merged += more.merged, on_surface += more.on_surface, closed += more.closed;
+    refilled += more.refilled, mended += more.mended, grown += more.grown;
     opened.insert(opened.end(), more.opened.begin(), more.opened.end());
     return *this;
   }

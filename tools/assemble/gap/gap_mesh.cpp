@@ -76,10 +76,9 @@ GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std:
   for (std::size_t v = 0; v < is_shared.size(); ++v)
     if (is_shared[v] != 0) holds_[v] |= at_seam;
   first_new_ = mesh.points.size();
-  kept_at_ = VertexItemsOf<KeptIndex>(mesh.points.size(), [&](auto&& visit) {
-    for (const auto c : indices<KeptIndex>(kept_.size()))
-      for (const Vertex v : kept_[c].vertices()) visit(v, c);
-  });
+  kept_at_.resize(first_new_);
+  for (const auto c : indices<KeptIndex>(kept_.size()))
+    for (const Vertex v : kept_[c].vertices()) kept_at_[v].push_back(c);
 }
 
 bool GapMesh::is_valid() const {
@@ -172,6 +171,21 @@ void GapMesh::set_alive(KeptIndex kept, bool is_alive) {
   }
 }
 
+void GapMesh::merge_kept(Vertex from, Vertex into) {
+  for (const KeptIndex k : kept_at_[from]) {
+    KeptCell& cell = kept_[k];
+    for (const Vertex v : cell.vertices()) ++age_[v];
+    std::ranges::replace(cell.corners, from, into);
+    cell.has_changed = true;
+    if (!kept_centres_.empty()) kept_centres_[k].reset();
+    kept_at_[into].push_back(k);
+  }
+  ++age_[into];
+  kept_at_[from].clear();
+  holds_[from] = 0;
+  holds_[into] |= of_kept;
+}
+
 Vertex GapMesh::add_vertex(const Vec3& at) {
   at_.emplace_back();
   age_.push_back(0);
@@ -210,7 +224,7 @@ std::vector<Vertex> GapMesh::inner_vertices_around(GapIndex c) const {
 
 void GapMesh::write_back() {
   for (const KeptCell& cell : kept_)
-    if (!cell.is_alive && mesh_.cell(cell.source).alive) mesh_.remove_cell(cell.source);
+    if ((!cell.is_alive || cell.has_changed) && mesh_.cell(cell.source).alive) mesh_.remove_cell(cell.source);
   for (const auto c : indices<GapIndex>(cells_.size())) {
     if (alive_[c] != 0 || source_[c] == no_index) continue;
     if (cells_[c].kind == CellKind::tet)
@@ -218,6 +232,14 @@ void GapMesh::write_back() {
     else
       mesh_.remove_cell(CellIndex(source_[c]));
     source_[c] = no_index;
+  }
+  for (KeptCell& cell : kept_) {
+    if (!cell.is_alive || !cell.has_changed) continue;
+    hybrid::HybridCell changed = mesh_.cell(cell.source);
+    changed.alive = true;
+    changed.corners = cell.corners;
+    cell.source = mesh_.add_cell(changed);
+    cell.has_changed = false;
   }
   for (const auto c : indices<GapIndex>(cells_.size())) {
     if (alive_[c] == 0 || source_[c] != no_index) continue;

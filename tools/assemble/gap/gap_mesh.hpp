@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "common/mesh/vertex_items.hpp"
 #include "tools/assemble/hybrid/hybrid_mesh.hpp"
 #include "tools/assemble/hybrid/surface_tags.hpp"
 
@@ -39,6 +38,7 @@ struct KeptCell {
   CellIndex source = no_index;
   std::int32_t region = 0;
   bool is_alive = true;
+  bool has_changed = false;  // has a vertex that it does not have in the mesh
 
   std::span<const Vertex> vertices() const {
     return std::span(corners).first(static_cast<std::size_t>(corner_count(kind)));
@@ -91,6 +91,8 @@ class GapMesh {
   // The vertices inside of a cell, and those of all cells at its vertices, ascending.
   std::vector<Vertex> inner_vertices_of(GapIndex c) const;
   std::vector<Vertex> inner_vertices_around(GapIndex c) const;
+  bool is_of_kept(Vertex v) const { return (holds_[v] & of_kept) != 0; }
+  bool is_at_seam(Vertex v) const { return (holds_[v] & at_seam) != 0; }
   // True where v may go along the surface: only cells of the gap are there, and no seam.
   bool is_free_on_surface(Vertex v) const { return holds_[v] == on_tagged && !at_[v].empty(); }
   // Faces count in the objective unless the vertices have not found their places yet.
@@ -125,6 +127,9 @@ class GapMesh {
   void undo_replace(std::span<const GapIndex> out, GapIndex first_new);
   // Takes a chosen cell away, or puts it back. The caller fills its room.
   void set_alive(KeptIndex kept, bool is_alive);
+  // The chosen cells at `from` get the vertex `into` in its place; none has both. boundary_triangles() and
+  // has_partner() know of it after write_back().
+  void merge_kept(Vertex from, Vertex into);
   Vertex add_vertex(const Vec3& at);
   // The caller has to replace() all cells at v afterwards.
   void move(Vertex v, const Vec3& to) { mesh_.points[v] = to; }
@@ -142,7 +147,8 @@ class GapMesh {
   void link(GapIndex c);
   void unlink(GapIndex c);
   std::span<const KeptIndex> kept_at_of(Vertex v) const {
-    return static_cast<std::size_t>(v) < first_new_ ? kept_at_.at(v) : std::span<const KeptIndex>();
+    if (static_cast<std::size_t>(v) >= first_new_) return {};
+    return kept_at_[v];
   }
 
   hybrid::HybridMesh& mesh_;
@@ -156,7 +162,7 @@ class GapMesh {
   std::vector<std::uint8_t> holds_;
   IndexedVector<KeptIndex, KeptCell> kept_;
   std::size_t first_new_ = 0;  // vertices from here on were added: no chosen cell has them
-  VertexItemsOf<KeptIndex> kept_at_;
+  std::vector<std::vector<KeptIndex>> kept_at_;
   mutable IndexedVector<GapIndex, std::optional<Vec3>> centres_;
   mutable IndexedVector<KeptIndex, std::optional<Vec3>> kept_centres_;
   mutable IndexedVector<GapIndex, FaceCost> face_costs_;

@@ -9,12 +9,15 @@
 #include "tools/assemble/gap/passes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
 
+#include "common/mesh/item_lists.hpp"
+#include "tools/assemble/gap/close_gaps.hpp"
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/skin.hpp"
@@ -35,6 +38,8 @@ constexpr double least_view = 0.1;
 constexpr double least_sine = 0.1;
 // Passes over all vertices; few find anything after the second.
 constexpr int most_surface_passes = 4;
+// The sine of the angle between a move and a facet that it does not leave.
+constexpr double along_surface = 1e-6;
 
 // The tagged triangles around a vertex, each with it first, in the order in which they follow each other.
 struct Fan {
@@ -51,6 +56,8 @@ class SurfaceMerger {
         for (const Vertex v : tags.triangle(i)) triangles_at_[v].push_back(i);
     for (const auto& [from, into] : tags.merges()) move_gone(from, into);
   }
+
+  std::int64_t close_gaps();
 
   std::int64_t run() {
     std::int64_t merged = 0, before = -1;
@@ -81,8 +88,14 @@ class SurfaceMerger {
   void look_at(Vertex from, Vertex into, Change& best) const;
   std::vector<Tet> between(Vertex from, Vertex into, const Fan& fan) const;
   bool merge(Vertex from);
+  void append_halves(const KeptCell& cell, const Triangle& tagged, std::vector<Facet>& sides) const;
+  bool may_close(Vertex from, Vertex into, const Fan& fan, double part) const;
+  bool close_on_surface(Vertex a, Vertex b);
+  bool close(Vertex a, Vertex b);
+  void finish(Vertex from, Vertex into, const Fan& fan, const std::vector<Tet>& between);
 
   GapMesh& gap_;
+  GapCloser closer_{gap_};
   hybrid::SurfaceTags& tags_;
   const InputSurface& surface_;
   std::vector<std::vector<TaggedTriangle>> triangles_at_;
@@ -282,6 +295,23 @@ void SurfaceMerger::look_at(Vertex from, Vertex into, Change& best) const {
     best = {now.cost - cost, into, std::move(in)};
 }
 
+// Appends the tagged triangle as the chosen cell has it: as half of a quad on the surface, or as a facet.
+void SurfaceMerger::append_halves(const KeptCell& cell, const Triangle& tagged, std::vector<Facet>& sides) const {
+  const auto look = [&](const Triangle& own) {
+    if (std::ranges::is_permutation(own, tagged)) sides.push_back(Facet::of(own));
+  };
+  const auto& c = cell.corners;
+  with_topology(cell.kind, [&](auto topology) {
+    for (const auto& t : decltype(topology)::triangles) look({c[t[0]], c[t[1]], c[t[2]]});
+    for (const auto& q : decltype(topology)::quads)
+      for (const int diagonal : {0, 1}) {
+        const Quad quad{c[q[0]], c[q[1]], c[q[2]], c[q[3]]};
+        if (tags_.cover_of(quad, diagonal))
+          for (const Triangle& half : triangles_of(quad, diagonal)) look(half);
+      }
+  });
+}
+
 // For each facet of one cell that moves, the tet that its move takes off: see SurfaceTags::merge.
 std::vector<Tet> SurfaceMerger::between(Vertex from, Vertex into, const Fan& fan) const {
   std::vector<Tet> tets;
@@ -292,6 +322,7 @@ std::vector<Tet> SurfaceMerger::between(Vertex from, Vertex into, const Fan& fan
       for_facets(gap_.cell(c).kind, gap_.cell(c).vertices(), [&](const Facet& facet) {
         if (!facet.is_quad() && std::ranges::is_permutation(facet.vertices(), t)) sides.push_back(facet);
       });
+    for (const KeptIndex k : gap_.kept_at(from)) append_halves(gap_.kept_cell(k), t, sides);
     if (sides.size() != 1) continue;
     const auto& f = sides.front().corners;
     tets.push_back({f[0], f[2], f[1], into});
@@ -313,23 +344,109 @@ bool SurfaceMerger::merge(Vertex from) {
   const auto around = gap_.cells_at(from);
   const std::vector<GapIndex> out(around.begin(), around.end());
   if (cost_of_faces(gap_, best.in, out) > cost_of_faces(gap_, out) + best.gain - least_gain) return false;
-  tags_.merge(from, best.into, fan->places, between(from, best.into, *fan));
-  for (std::size_t i = 0; i < fan->places.size(); ++i) {
-    const TaggedTriangle place = fan->places[i];
-    for (const Vertex v : fan->triangles[i])
-      if (has(fan->triangles[i], best.into)) std::erase(triangles_at_[v], place);
-    if (!has(fan->triangles[i], best.into)) triangles_at_[best.into].push_back(place);
-  }
-  triangles_at_[from].clear();
-  move_gone(from, best.into);
+  finish(from, best.into, *fan, between(from, best.into, *fan));
   gap_.replace(out, best.in);
   return true;
+}
+
+void SurfaceMerger::finish(Vertex from, Vertex into, const Fan& fan, const std::vector<Tet>& between) {
+  tags_.merge(from, into, fan.places, between);
+  for (std::size_t i = 0; i < fan.places.size(); ++i) {
+    const TaggedTriangle place = fan.places[i];
+    for (const Vertex v : fan.triangles[i])
+      if (has(fan.triangles[i], into)) std::erase(triangles_at_[v], place);
+    if (!has(fan.triangles[i], into)) triangles_at_[into].push_back(place);
+  }
+  triangles_at_[from].clear();
+  move_gone(from, into);
+}
+
+// Whether the surface lets `from` become `into`, which goes this part of the way to meet it, along all of its facets.
+bool SurfaceMerger::may_close(Vertex from, Vertex into, const Fan& fan, double part) const {
+  const Vec3 before = gap_.points()[into], shift = (gap_.points()[from] - before) * part;
+  if (part > 0) {
+    const auto place = surface_.place(into);
+    if (place != InputSurface::Place::face && place != InputSurface::Place::curve) return false;
+    for (const TaggedTriangle i : triangles_at_[into]) {
+      const Triangle triangle = tags_.triangle(i);
+      const Vec3 normal = normal_of(gap_.points(), triangle);
+      if (std::abs(dot(normal, shift)) > along_surface * norm(shift)) return false;
+      if (has(triangle, from)) continue;
+      gap_.move(into, before + shift);
+      const bool stays = dot(normal_of(gap_.points(), triangle), normal) > least_cosine &&
+                         least_sine_of(gap_.points(), triangle) > least_sine;
+      gap_.move(into, before);
+      if (!stays) return false;
+    }
+  }
+  gap_.move(into, before + shift);
+  const bool keeps = keeps_surface(into, fan) && keeps_shape(from, into, fan) && stays_near(from, into, fan);
+  gap_.move(into, before);
+  return keeps;
+}
+
+// The place of b, or of a, in the other's stead; in the middle where that leaves the surface as it is.
+bool SurfaceMerger::close_on_surface(Vertex a, Vertex b) {
+  for (const double part : {0.5, 0.0})
+    for (const auto& [from, into] : {std::array{a, b}, std::array{b, a}}) {
+      const auto place = surface_.place(from);
+      if (place != InputSurface::Place::face && place != InputSurface::Place::curve) continue;
+      if (triangles_at_[from].empty() || !closer_.may_close(from, into)) continue;
+      const auto fan = fan_of(from);
+      if (!fan) continue;
+      const auto goals = goals_of(from, *fan);
+      if (std::ranges::find(goals, into) == goals.end() || !may_close(from, into, *fan, part)) continue;
+      const std::vector<Tet> taken_off = between(from, into, *fan);
+      const Vec3 before = gap_.points()[into];
+      if (!closer_.close({from, into, before + (gap_.points()[from] - before) * part, part > 0})) return false;
+      finish(from, into, *fan, taken_off);
+      return true;
+    }
+  return false;
+}
+
+// A vertex on the surface stays where it is if the other one is inside.
+bool SurfaceMerger::close(Vertex a, Vertex b) {
+  if (!gap_.is_inside(a) && !gap_.is_inside(b)) return close_on_surface(a, b);
+  const bool is_a_inside = gap_.is_inside(a);
+  const Vertex from = is_a_inside ? a : b, into = is_a_inside ? b : a;
+  if (!closer_.may_close(from, into)) return false;
+  const Vec3 before = gap_.points()[into];
+  return closer_.close({from, into, gap_.is_inside(into) ? (gap_.points()[from] + before) * 0.5 : before});
+}
+
+// The shortest edges first.
+std::int64_t SurfaceMerger::close_gaps() {
+  std::vector<std::array<Vertex, 2>> edges;
+  for (const auto c : indices<GapIndex>(gap_.cell_count())) {
+    if (!gap_.is_alive(c)) continue;
+    const GapCell& cell = gap_.cell(c);
+    with_topology(cell.kind, [&](auto topology) {
+      for (const auto& [i, k] : decltype(topology)::edges) {
+        const Vertex a = cell.corners[i % 6], b = cell.corners[k % 6];
+        if (gap_.is_of_kept(a) && gap_.is_of_kept(b)) edges.push_back({std::min(a, b), std::max(a, b)});
+      }
+    });
+  }
+  sort_unique(edges);
+  const auto points = gap_.points();
+  std::ranges::stable_sort(edges, {}, [&](const auto& edge) { return norm(points[edge[0]] - points[edge[1]]); });
+  std::int64_t closed = 0;
+  for (const auto& [a, b] : edges) {
+    const auto has_other = [&, other = b](GapIndex c) { return gap_.cell(c).has(other); };
+    if (std::ranges::any_of(gap_.cells_at(a), has_other)) closed += close(a, b) ? 1 : 0;
+  }
+  return closed;
 }
 
 }  // namespace
 
 std::int64_t merge_on_surface(GapMesh& gap, hybrid::SurfaceTags& tags, const InputSurface& surface) {
   return SurfaceMerger(gap, tags, surface).run();
+}
+
+std::int64_t close_gaps(GapMesh& gap, hybrid::SurfaceTags& tags, const InputSurface& surface) {
+  return SurfaceMerger(gap, tags, surface).close_gaps();
 }
 
 }  // namespace hexpipe::assemble::gap

@@ -27,6 +27,11 @@ std::int64_t merge_on_surface(GapMesh& gap, hybrid::SurfaceTags& tags, const sha
 // (patch.hpp). Returns the number of vertices that are gone.
 std::int64_t merge_stars(GapMesh& gap, bool neighbours_yield = false);
 
+// Merges two vertices of different chosen cells where an edge of the gap joins them, so that the gap closes there: the
+// room around is filled anew, and inner vertices move (close_gaps.hpp). On the surface as for merge_on_surface(), or
+// in the middle of the two where that leaves the surface as it is. Returns the number of vertices that are gone.
+std::int64_t close_gaps(GapMesh& gap, hybrid::SurfaceTags& tags, const shape::InputSurface& surface);
+
 struct RefillCounts {
   std::int64_t vertices = 0;  // gone, because the room of the cells around them was filled anew
   std::int64_t edges = 0;     // whose cells' room was filled anew

@@ -48,6 +48,11 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
     before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
     for (const KeptIndex c : gap_.kept_at(v)) kept_.push_back(c);
   }
+  const VertexMerge& merge = replacement.merge;
+  merges_ = merge.from != no_index;
+  if (merges_)
+    for (const Vertex v : {merge.from, merge.into})
+      for (const KeptIndex c : gap_.kept_at(v)) kept_.push_back(c);
   sort_unique(before_);
   sort_unique(kept_);
   for (const GapIndex c : before_)
@@ -61,6 +66,7 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
     const double floor = cell.kind == CellKind::hex ? least_hex : least_prism;
     add({cell.kind, true, 0, std::min(floor, quality_of(cell.kind, gap_.points(), cell.vertices())), {}},
         cell.vertices());
+    if (merges_) std::ranges::replace(cells_.back().corners, merge.from, merge.into);
   }
   for (const Cell& cell : cells_) vertices_.insert(vertices_.end(), cell.vertices().begin(), cell.vertices().end());
   vertices_.insert(vertices_.end(), moving.begin(), moving.end());
@@ -68,6 +74,7 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
   points_.clear();
   for (const Vertex v : vertices_) points_.push_back(gap_.points()[v]);
   for (const Vertex v : moving) moving_.push_back(local_of(v));
+  fixed_ = merges_ && merge.is_fixed ? local_of(merge.into) : Local{no_index};
   at_.assign(moving.size(), {});
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     for (Local& v : cells_[c].corners) v = local_of(v);
@@ -101,9 +108,13 @@ void Patch::look_around(std::size_t i) {
 }
 
 bool Patch::improve(std::size_t i, double goal, double rise) {
+  if (moving_[i] == fixed_) return false;
   // Chosen cells are better: most vertices need no look at all of theirs.
-  const bool is_good_here =
-      std::ranges::all_of(at_[i], [&](std::size_t c) { return cells_[c].is_kept || quality(cells_[c]) >= goal; });
+  const bool is_good_here = std::ranges::all_of(at_[i], [&](std::size_t c) {
+    const Cell& cell = cells_[c];
+    if (cell.is_kept) return !merges_ || quality(cell) >= cell.floor;
+    return quality(cell) >= goal;
+  });
   if (is_good_here) return false;
   look_around(i);
   Vec3& point = points_[moving_[i]];
@@ -129,7 +140,7 @@ void Patch::raise(double goal, int rounds) {
     bool any = false;
     for (std::size_t i = 0; i < moving_.size(); ++i) any = improve(i, goal, least_rise) || any;
     const double now = least();
-    if (!any || now >= goal || (round > 0 && now < before + least_rise)) return;
+    if (!any || (now >= goal && (!merges_ || keeps_floors())) || (round > 0 && now < before + least_rise)) return;
     before = now;
   }
 }
@@ -218,6 +229,7 @@ bool Patch::costs_at_most(double most) {
 
 void Patch::carry_out(GapMesh& gap, const Replacement& replacement) const {
   gap.replace(replacement.out, replacement.in);
+  if (merges_) gap.merge_kept(replacement.merge.from, replacement.merge.into);
   for (const Local v : moving_) gap.relocate(vertices_[v], points_[v]);
 }
 

@@ -15,11 +15,20 @@
 
 namespace hexpipe::assemble::gap {
 
+// Chosen cells at `from` get the vertex `into` in its place.
+struct VertexMerge {
+  Vertex from = no_index, into = no_index;
+  Vec3 at{};              // where `into` goes
+  bool is_fixed = false;  // it stays there, because it is on the surface
+};
+
 // A change of the gap: which cells go, and which come.
 struct Replacement {
   std::span<const GapIndex> out;
   std::span<const GapCell> in;
   double floor = 0;  // the least quality of a cell that may come
+  // All cells of the gap at `merge.from` are among `out`. `merge.into` is among the moving vertices if it moves.
+  VertexMerge merge{};
 };
 
 // A change that raises the worst cell by less is not worth it.
@@ -101,6 +110,8 @@ class Patch {
   std::vector<Vec3> points_;
   std::vector<Cell> cells_;
   std::vector<GapIndex> before_;  // cells of the gap at the moving vertices, before the change
+  Local fixed_ = no_index;        // no vertex of `moving_` but this one stays
+  bool merges_ = false;           // two vertices of chosen cells
   std::vector<KeptIndex> kept_;   // chosen cells at the moving vertices
   std::vector<Local> moving_;
   std::vector<std::vector<std::size_t>> at_;  // by place in moving_: those of `cells_`

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/mesh/item_lists.hpp"
 #include "common/mesh/quality.hpp"
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
@@ -21,6 +22,8 @@ namespace {
 constexpr int most_steps = 40;
 // Part of a room's volume.
 constexpr double rounding = 1e-9;
+// When two of its vertices merge, most facets of a room are gone, or meet.
+constexpr std::size_t most_facets_before_merge = 60;
 
 double volume_of(const GapMesh& gap, const GapCell& cell) {
   const auto at = corner_points(gap.points(), cell.vertices());
@@ -169,10 +172,10 @@ bool Refill::are_present() const {
 // Keeps the cells that are placed if they are the best so far. What is there is met in nearly every room, and known not
 // to cost less than itself.
 void Refill::compare(double cost) {
-  if (are_present()) return;
+  if (!merges_ && are_present()) return;
   std::vector<GapCell> made;
   for (const SmallCell& cell : placed_) made.push_back(cells_.made_of(cell));
-  const double total = cost + cost_of_faces(gap_, made, out_);
+  const double total = merges_ ? cost : cost + cost_of_faces(gap_, made, out_);
   if (total >= most_ || std::ranges::any_of(made, [&](const GapCell& cell) { return cell.quality < floor_; })) return;
   most_ = total;
   best_ = std::move(made);
@@ -204,6 +207,15 @@ bool Refill::begin(std::span<const GapIndex> out) {
   if (!room || room->vertices.size() > most_corners) return false;
   room_ = std::move(*room);
   out_ = out;
+  merges_ = false;
+  begin_search();
+  space_ = 0;
+  for (const GapIndex c : out) space_ += volume_of(gap_, gap_.cell(c));
+  space_ *= 1 + rounding;
+  return true;
+}
+
+void Refill::begin_search() {
   cells_.begin(gap_, room_.vertices, room_.region, floor_);
   front_ = {};
   const auto place_of = [&](Vertex v) {
@@ -216,10 +228,76 @@ bool Refill::begin(std::span<const GapIndex> out) {
   }
   placed_.clear(), best_.clear();
   steps_left_ = most_steps;
-  space_ = 0;
-  for (const GapIndex c : out) space_ += volume_of(gap_, gap_.cell(c));
-  space_ *= 1 + rounding;
-  return true;
+}
+
+namespace {
+
+// The skin with `into` in place of `from`: facets that have both lose an edge, and two sides of one facet meet. Nothing
+// if a facet would be there twice.
+std::optional<std::vector<Facet>> merged_skin(std::span<const Facet> skin, Vertex from, Vertex into) {
+  std::vector<Facet> result;
+  for (const Facet& facet : skin) {
+    std::vector<Vertex> corners;
+    for (const Vertex v : facet.vertices())
+      if (const Vertex w = v == from ? into : v; corners.empty() || corners.back() != w) corners.push_back(w);
+    if (corners.front() == corners.back()) corners.pop_back();
+    if (corners.size() < 3) continue;
+    if (std::ranges::count(corners, into) > 1) return std::nullopt;
+    const Facet moved = Facet::of(corners);
+    if (std::ranges::find(result, moved) != result.end()) return std::nullopt;
+    const auto twin = std::ranges::find(result, moved.reversed());
+    if (twin == result.end())
+      result.push_back(moved);
+    else
+      result.erase(twin);
+  }
+  return result;
+}
+
+// Inside the skin; a quad counts as the mean of its two pairs of triangles.
+double volume_inside(std::span<const Vec3> points, std::span<const Facet> skin) {
+  const Vec3 middle = middle_of(points, skin);
+  double volume = 0;
+  for (const Facet& facet : skin) {
+    const auto add = [&](double share, std::size_t i, std::size_t j, std::size_t k) {
+      const auto at = [&](std::size_t n) { return points[facet.corners[n]] - middle; };
+      volume += share * det(at(i), at(j), at(k)) / 6;
+    };
+    if (!facet.is_quad())
+      add(1, 0, 1, 2);
+    else
+      add(0.5, 0, 1, 2), add(0.5, 0, 2, 3), add(0.5, 0, 1, 3), add(0.5, 1, 2, 3);
+  }
+  return volume;
+}
+
+}  // namespace
+
+std::optional<std::vector<GapCell>> Refill::find_merged(std::span<const GapIndex> out, Vertex from, Vertex into,
+                                                        double floor, double most) {
+  auto room = room_of(gap_, out, most_facets_before_merge);
+  if (!room) return std::nullopt;
+  auto skin = merged_skin(room->skin, from, into);
+  if (!skin) return std::nullopt;
+  if (skin->empty()) return std::vector<GapCell>();
+  room->skin = std::move(*skin);
+  room->vertices.clear();
+  for (const Facet& facet : room->skin)
+    room->vertices.insert(room->vertices.end(), facet.vertices().begin(), facet.vertices().end());
+  sort_unique(room->vertices);
+  if (room->skin.size() > most_facets || room->vertices.size() > most_corners) return std::nullopt;
+  room_ = std::move(*room);
+  out_ = out;
+  merges_ = true;
+  floor_ = floor;
+  most_ = most;
+  space_ = volume_inside(gap_.points(), room_.skin) * (1 + rounding);
+  if (!(space_ > 0)) return std::nullopt;
+  begin_search();
+  const std::vector<Offer> offers = fewest_offers();
+  if (!offers.empty() && front_.may_cost_less(0, most_)) try_each(offers, 0);
+  if (best_.empty()) return std::nullopt;
+  return best_;
 }
 
 std::optional<std::vector<GapCell>> Refill::find(std::span<const GapIndex> out) {

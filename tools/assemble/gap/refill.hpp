@@ -54,6 +54,10 @@ class Refill {
   // length meets. Nothing if there are none, if the cells form no room (skin.hpp), or if the room is large. All cells
   // of the gap have to be valid. A room for which there was nothing is not searched again while it is as it was.
   std::optional<std::vector<GapCell>> find(std::span<const GapIndex> out);
+  // Cells for the room of `out` once the vertex `from` has become `into`: of at least this quality, which may be
+  // negative, and cheaper than `most`, whatever their faces cost. No cells where the skin closes by itself.
+  std::optional<std::vector<GapCell>> find_merged(std::span<const GapIndex> out, Vertex from, Vertex into, double floor,
+                                                  double most);
 
  private:
   struct Offer {
@@ -63,6 +67,7 @@ class Refill {
   };
 
   bool begin(std::span<const GapIndex> out);
+  void begin_search();
   void offer(const SmallCell& cell, std::vector<Offer>& offers);
   void collect_offers(SmallFacet facet, std::size_t most, std::vector<Offer>& offers);
   void collect_prisms(SmallFacet facet, std::vector<Offer>& offers);
@@ -84,6 +89,7 @@ class Refill {
   double floor_ = 0, most_ = 0;
   double space_ = 0;  // the volume that is left, and a little for rounding
   int steps_left_ = 0;
+  bool merges_ = false;  // while find_merged() runs
 };
 
 // Fills the room of a cell and of its neighbours anew. If that finds nothing better, it tries the room of all cells at
