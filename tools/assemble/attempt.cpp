@@ -285,6 +285,7 @@ Built Builder::finish(Attempt attempt, const GivenBackCounts& given_back) const 
   counts.volume_given_back += given_back.hex_volume;
   std::vector<CandidateIndex> left;
   append_candidates(attempt.mesh, true, left);
+  std::ranges::sort(left);  // cells that got other corners come last
   return {.tags = std::move(attempt.tags),
           .extracted = std::move(attempt.extracted),
           .conformity = counts,
