@@ -7,9 +7,6 @@
 namespace hexpipe::conflicts {
 namespace {
 
-// As the exchange of hexes in assemble weighs them.
-constexpr double power_of_quality = 0.3;
-
 double worth(const Candidates& candidates, std::size_t i, WeightKind kind) {
   switch (kind) {
     case WeightKind::quality:
@@ -19,7 +16,7 @@ double worth(const Candidates& candidates, std::size_t i, WeightKind kind) {
     case WeightKind::quality_volume:
       return candidates.quality[i] * candidates.volume[i];
     case WeightKind::mild_quality_volume:
-      return std::pow(candidates.quality[i], power_of_quality) * candidates.volume[i];
+      return std::pow(candidates.quality[i], mild_power_of_quality) * candidates.volume[i];
     case WeightKind::count:
       break;
   }

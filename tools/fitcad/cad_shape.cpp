@@ -26,6 +26,7 @@
 #include <sstream>
 #include <utility>
 
+#include "common/mesh/item_lists.hpp"
 #include "common/run/error.hpp"
 #include "common/run/muted_cout.hpp"
 #include "tools/fitcad/nearest_simplex.hpp"
@@ -73,12 +74,6 @@ struct Near {
   std::int32_t simplex;
   double distance;
 };
-
-Tags sorted_set(Tags tags) {
-  std::ranges::sort(tags);
-  tags.erase(std::ranges::unique(tags).begin(), tags.end());
-  return tags;
-}
 
 void keep_nearest(std::map<std::int32_t, Near>& found, std::int32_t owner, std::int32_t number, const Simplex& simplex,
                   const Vec3& to) {
@@ -161,7 +156,8 @@ void CadShape::State::read(const pipeline::ExactShape& shape, const std::string&
   check("faces", shape.face_tags.size(), all_faces.Extent());
   check("edges", shape.edge_tags.size(), faces_of_edge.Extent());
   for (int i = 1; i <= all_faces.Extent(); ++i) add_face(TopoDS::Face(all_faces.FindKey(i)), shape.face_tags[i - 1]);
-  tags = sorted_set(shape.face_tags);
+  tags = shape.face_tags;
+  sort_unique(tags);
   const auto tag_of = [&](const TopoDS_Shape& face) { return shape.face_tags[all_faces.FindIndex(face) - 1]; };
   curves.resize(static_cast<std::size_t>(faces_of_edge.Extent()));
   tags_around.resize(curves.size());
@@ -170,9 +166,8 @@ void CadShape::State::read(const pipeline::ExactShape& shape, const std::string&
     const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edge.FindKey(i));
     if (around.IsEmpty() || BRep_Tool::Degenerated(edge)) continue;
     curves[i - 1].emplace(edge);
-    Tags found;
-    for (const TopoDS_Shape& face : around) found.push_back(tag_of(face));
-    tags_around[i - 1] = sorted_set(std::move(found));
+    for (const TopoDS_Shape& face : around) tags_around[i - 1].push_back(tag_of(face));
+    sort_unique(tags_around[i - 1]);
     add_edge(i - 1, edge, TopoDS::Face(around.First()), shape.edge_tags[i - 1] != 0);
   }
 }

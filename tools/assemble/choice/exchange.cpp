@@ -31,8 +31,6 @@ namespace {
 // In hexes of quality 1 and of the usual volume around. 0.12 loses 0.15; 0.08 gives the same share with a few more
 // pyramids.
 constexpr double cost_of_open_quad = 0.1;
-// 0.2 loses 0.08 and hexes are worse; 0.5 loses 0.07 and hexes are better.
-constexpr double power_of_quality = 0.3;
 // In the units of cost_of_open_quad. Cooling from 0.03 to 0.003, hardly an annealing, gives six tenths of the gain; a
 // start at 0.4, or an end at 0.005 or 0.02, gives as much.
 constexpr mwis::local_search::Cooling cooling{.hot = 0.3, .cold = 0.01};
@@ -159,7 +157,8 @@ class Worth {
   }
 
   std::int64_t of(std::size_t i) const {
-    return std::llround(scale_ * volumes_[i] * std::pow(std::clamp(cells_.quality[i], 0.0, 1.0), power_of_quality));
+    return std::llround(scale_ * volumes_[i] *
+                        std::pow(std::clamp(cells_.quality[i], 0.0, 1.0), conflicts::mild_power_of_quality));
   }
   std::int64_t cost_of(const VertexKey<4>& quad) const {
     return std::llround(cost_of_open_quad * scale_ * mean_at(mean_volumes_, quad));

@@ -80,8 +80,7 @@ bool GapCloser::close(const VertexMerge& merge) {
   for (const GapIndex c : hole)
     for (const Vertex v : gap_.cell(c).vertices())
       for (const GapIndex other : gap_.cells_at(v))
-        if (std::ranges::count_if(gap_.cell(c).vertices(), [&](Vertex w) { return gap_.cell(other).has(w); }) >= 3)
-          wide.push_back(other);
+        if (gap_.cell(c).count_common(gap_.cell(other)) >= 3) wide.push_back(other);
   sort_unique(wide);
   if (wide.size() > hole.size() && fill(merge, wide)) return true;
   around.insert(around.end(), gap_.cells_at(merge.into).begin(), gap_.cells_at(merge.into).end());

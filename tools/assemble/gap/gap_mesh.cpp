@@ -31,6 +31,10 @@ bool GapCell::has(Vertex v) const {
   return std::ranges::find(vertices(), v) != vertices().end();
 }
 
+int GapCell::count_common(const GapCell& other) const {
+  return static_cast<int>(std::ranges::count_if(vertices(), [&](Vertex v) { return other.has(v); }));
+}
+
 double hex_volume_of(const GapMesh& gap) {
   double volume = 0;
   for (const auto k : indices<KeptIndex>(gap.kept_count())) {

@@ -29,6 +29,7 @@ struct GapCell {
     return std::span(corners).first(static_cast<std::size_t>(corner_count(kind)));
   }
   bool has(Vertex v) const;
+  int count_common(const GapCell& other) const;  // vertices that both have; three or more are a facet
 };
 
 // A cell that was chosen: it stays, though vertices of it may move; only open_hexes() takes some away.

@@ -106,10 +106,8 @@ std::vector<Vertex> StarMerger::partners_of(Vertex v) const {
     take(cell);
     for (const Vertex w : cell.vertices()) {
       if (w == v) continue;
-      for (const GapIndex other : gap_.cells_at(w)) {
-        const auto shared = std::ranges::count_if(cell.vertices(), [&](Vertex x) { return gap_.cell(other).has(x); });
-        if (shared >= 3) take(gap_.cell(other));
-      }
+      for (const GapIndex other : gap_.cells_at(w))
+        if (cell.count_common(gap_.cell(other)) >= 3) take(gap_.cell(other));
     }
   }
   sort_unique(partners);

@@ -110,7 +110,7 @@ class Patch {
   std::vector<Vec3> points_;
   std::vector<Cell> cells_;
   std::vector<GapIndex> before_;  // cells of the gap at the moving vertices, before the change
-  Local fixed_ = no_index;        // no vertex of `moving_` but this one stays
+  Local fixed_ = no_index;        // the one of `moving_` that stays where it was placed, if any
   bool merges_ = false;           // two vertices of chosen cells
   std::vector<KeptIndex> kept_;   // chosen cells at the moving vertices
   std::vector<Local> moving_;

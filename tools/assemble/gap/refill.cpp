@@ -37,6 +37,45 @@ constexpr std::size_t number_of(const std::array<Corner, 4>& c) {
 }
 static_assert(number_of({0, 1, 2, 3}) == 0 && number_of({8, 9, 10, 11}) == 494);
 
+// The skin with `into` in place of `from`: facets that have both lose an edge, and two sides of one facet meet. Nothing
+// if a facet would be there twice.
+std::optional<std::vector<Facet>> merged_skin(std::span<const Facet> skin, Vertex from, Vertex into) {
+  std::vector<Facet> result;
+  for (const Facet& facet : skin) {
+    std::vector<Vertex> corners;
+    for (const Vertex v : facet.vertices())
+      if (const Vertex w = v == from ? into : v; corners.empty() || corners.back() != w) corners.push_back(w);
+    if (corners.front() == corners.back()) corners.pop_back();
+    if (corners.size() < 3) continue;
+    if (std::ranges::count(corners, into) > 1) return std::nullopt;
+    const Facet moved = Facet::of(corners);
+    if (std::ranges::find(result, moved) != result.end()) return std::nullopt;
+    const auto twin = std::ranges::find(result, moved.reversed());
+    if (twin == result.end())
+      result.push_back(moved);
+    else
+      result.erase(twin);
+  }
+  return result;
+}
+
+// Inside the skin; a quad counts as the mean of its two pairs of triangles.
+double volume_inside(std::span<const Vec3> points, std::span<const Facet> skin) {
+  const Vec3 middle = middle_of(points, skin);
+  double volume = 0;
+  for (const Facet& facet : skin) {
+    const auto add = [&](double share, std::size_t i, std::size_t j, std::size_t k) {
+      const auto at = [&](std::size_t n) { return points[facet.corners[n]] - middle; };
+      volume += share * det(at(i), at(j), at(k)) / 6;
+    };
+    if (!facet.is_quad())
+      add(1, 0, 1, 2);
+    else
+      add(0.5, 0, 1, 2), add(0.5, 0, 2, 3), add(0.5, 0, 1, 3), add(0.5, 1, 2, 3);
+  }
+  return volume;
+}
+
 }  // namespace
 
 void RoomCells::begin(const GapMesh& gap, std::span<const Vertex> vertices, std::int32_t region, double floor) {
@@ -230,49 +269,6 @@ void Refill::begin_search() {
   steps_left_ = most_steps;
 }
 
-namespace {
-
-// The skin with `into` in place of `from`: facets that have both lose an edge, and two sides of one facet meet. Nothing
-// if a facet would be there twice.
-std::optional<std::vector<Facet>> merged_skin(std::span<const Facet> skin, Vertex from, Vertex into) {
-  std::vector<Facet> result;
-  for (const Facet& facet : skin) {
-    std::vector<Vertex> corners;
-    for (const Vertex v : facet.vertices())
-      if (const Vertex w = v == from ? into : v; corners.empty() || corners.back() != w) corners.push_back(w);
-    if (corners.front() == corners.back()) corners.pop_back();
-    if (corners.size() < 3) continue;
-    if (std::ranges::count(corners, into) > 1) return std::nullopt;
-    const Facet moved = Facet::of(corners);
-    if (std::ranges::find(result, moved) != result.end()) return std::nullopt;
-    const auto twin = std::ranges::find(result, moved.reversed());
-    if (twin == result.end())
-      result.push_back(moved);
-    else
-      result.erase(twin);
-  }
-  return result;
-}
-
-// Inside the skin; a quad counts as the mean of its two pairs of triangles.
-double volume_inside(std::span<const Vec3> points, std::span<const Facet> skin) {
-  const Vec3 middle = middle_of(points, skin);
-  double volume = 0;
-  for (const Facet& facet : skin) {
-    const auto add = [&](double share, std::size_t i, std::size_t j, std::size_t k) {
-      const auto at = [&](std::size_t n) { return points[facet.corners[n]] - middle; };
-      volume += share * det(at(i), at(j), at(k)) / 6;
-    };
-    if (!facet.is_quad())
-      add(1, 0, 1, 2);
-    else
-      add(0.5, 0, 1, 2), add(0.5, 0, 2, 3), add(0.5, 0, 1, 3), add(0.5, 1, 2, 3);
-  }
-  return volume;
-}
-
-}  // namespace
-
 std::optional<std::vector<GapCell>> Refill::find_merged(std::span<const GapIndex> out, Vertex from, Vertex into,
                                                         double floor, double most) {
   auto room = room_of(gap_, out, most_facets_before_merge);
@@ -326,8 +322,7 @@ constexpr std::size_t most_at_vertex = 20;
 
 // With a facet in common.
 bool is_beside(const GapMesh& gap, GapIndex c, GapIndex other) {
-  return c != other &&
-         std::ranges::count_if(gap.cell(c).vertices(), [&](Vertex v) { return gap.cell(other).has(v); }) >= 3;
+  return c != other && gap.cell(c).count_common(gap.cell(other)) >= 3;
 }
 
 }  // namespace

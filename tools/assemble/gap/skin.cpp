@@ -127,7 +127,7 @@ std::vector<std::vector<GapIndex>> rooms_around(const GapMesh& gap, GapIndex c) 
   for (const Vertex v : cell.vertices())
     for (const GapIndex other : gap.cells_at(v)) {
       if (std::ranges::find(at_edges, other) != at_edges.end()) continue;
-      const auto common = std::ranges::count_if(gap.cell(other).vertices(), [&](Vertex w) { return cell.has(w); });
+      const int common = cell.count_common(gap.cell(other));
       if (common >= 2) at_edges.push_back(other);
       if (common >= 3) behind_facets.push_back(other);
     }
