@@ -53,7 +53,7 @@ function(hexpipe_library name)
   add_library(${name} STATIC ${arg_SOURCES})
   target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PUBLIC hexpipe_flags ${arg_LINK})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ${HEXPIPE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${HEXPIPE_UNITY} UNITY_BUILD_BATCH_SIZE 20)
 endfunction()
 
 # hexpipe_copyright(COMPONENT): the file that Debian expects in each package, made of LICENSE.

@@ -154,6 +154,7 @@ setup_file() {
 }
 
 @test "Ctrl-C once: the searches end, and the mesh is assembled" {
+  optimized_only "it is about the line"
   # At 4 % initsol proves its choice the best, and lns has nothing to search.
   hexpipe "$DATA/bracket.stl" --size 2.5% -o bracket.vtu --initsol '--iterations 10' --lns '--time-limit 1000' 2>messages 3>&- &
   local pid=$!

@@ -80,6 +80,7 @@ PYTHON
 }
 
 @test "--method, --seed, --hot, --cold, --starts change the search" {
+  optimized_only "it is about results"
   whole --iterations 4000 -o base.sol
   whole --iterations 4000 --method anneal -o same.sol
   assert_same_bytes base.sol same.sol

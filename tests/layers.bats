@@ -159,6 +159,7 @@ PYTHON
 }
 
 @test "OpenFOAM finds layers well" {
+  optimized_only "it is about another program"
   command -v checkMesh >/dev/null || skip "openfoam is not installed"
   export WM_PROJECT_DIR=${WM_PROJECT_DIR:-/usr/share/openfoam}
   mkdir -p case/system case/constant

@@ -55,6 +55,7 @@ weight_of() {
 }
 
 @test "a bundle through pipes, and without mpirun" {
+  optimized_only "it is about results"
   on 2 --iterations 50 -o two.sol
   lns-mpi --graph ring.graph --solution start.sol --iterations 50 -o alone.sol
   initsol ring.graph --iterations 0 --greedy weight |
@@ -213,6 +214,7 @@ PYTHON
 }
 
 @test "SIGTERM to one rank, and SIGUSR1 to mpirun, write the best so far and end well" {
+  optimized_only "it is about mpirun"
   local job
   for signal in TERM USR1; do
     start_long
@@ -274,6 +276,7 @@ PYTHON
 }
 
 @test "a rank that alone has a wrong option says so" {
+  optimized_only "it is about the texts"
   cat >wrapper <<'SHELL'
 #!/bin/bash
 if [[ $OMPI_COMM_WORLD_RANK == 1 ]]; then extra=(--no-such-option); fi
@@ -286,6 +289,7 @@ SHELL
 }
 
 @test "a rank that dies ends the job, which names it" {
+  optimized_only "it is about mpirun"
   local job
   start_long --checkpoint state --checkpoint-interval 0
   await test -e state/checkpoint.json

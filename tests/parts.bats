@@ -550,6 +550,7 @@ PYTHON
 }
 
 @test "the Slurm script's jobs run the pipeline, each when those before it have succeeded" {
+  optimized_only "it is about the script"
   bar >bar.mesh
   mkdir bin
   # Runs a job at once, all numbers of its array, and prints its number; a search by one process stands for that of lns-mpi.

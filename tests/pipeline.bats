@@ -120,6 +120,7 @@ assert share > 0.94, share'
 }
 
 @test "the Python stage of formats/README.md works in the middle of a pipe" {
+  optimized_only "it is about another program"
   sed -n '/^```python stage$/,/^```$/p' "$HEXPIPE_SOURCE/formats/README.md" | sed '1d;$d' >stage.py
   assert [ "$(grep -c . stage.py)" -le 20 ]
   shell "tetmesh '$DATA/bracket.stl' --size 8 -q | findhex | tee plain.tar | $PYTHON stage.py | buildgraph | initsol --iterations 100 |
@@ -133,6 +134,7 @@ assert share > 0.94, share'
 }
 
 @test "coinor-cbc stands in for initsol and lns, and finds the optimum" {
+  optimized_only "it is about another program"
   local cells=7
   if sanitized; then cells=5; fi  # of minutes, most would be the other solver's
   $PYTHON "$DATA/box.py" $cells >box.off
@@ -282,6 +284,7 @@ PYTHON
 }
 
 @test "in a pipe that another program fills, a tool says what it found" {
+  optimized_only "it is about the texts"
   assert_fails_with 1 "^findhex: stdin: expected a bundle or the mesh, found nothing" shell 'true | findhex'
   tetmesh -q "$DATA/cube.stl" -o cube.tar
   assert_fails_with 1 "^findhex: stdin: .*Truncated" shell 'head -c 1500 cube.tar | findhex'
@@ -291,6 +294,7 @@ PYTHON
 }
 
 @test "a tool whose reader failed ends without a word" {
+  optimized_only "it is about the line"
   tetmesh -q "$DATA/bracket.stl" --size 6 -o bracket.tar
   mkfifo go
   # findhex has more to write than a pipe holds, and does so when buildgraph has failed.

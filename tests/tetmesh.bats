@@ -60,6 +60,7 @@ regions() {
 }
 
 @test "file, redirection, pipe and process substitution give the same bytes" {
+  optimized_only "it is about results"
   for file in cube.stl cube.ascii.stl cube.obj cube.off cube.ascii.ply cube.binary_big_endian.ply; do
     local surface="$FILES/$file"
     tetmesh -q --size 0.3 "$surface" -o file.tar
@@ -81,6 +82,7 @@ regions() {
 }
 
 @test "a real part: surface kept, volume right, conforming by the independent checker" {
+  optimized_only "it is about results"
   run_apart tetmesh "$DATA/bracket.stl" --surface keep --size 5 -o part.msh --stats stats.json
   assert_success
   assert_equal "$output$stderr" ""
@@ -422,6 +424,7 @@ tetmesh: warning: outside.obj: --keep-baffles finds no sheet that ends inside"
 }
 
 @test "surfaces come in mesh formats, too" {
+  optimized_only "it is about results"
   for format in mesh msh msh-binary msh22 msh22-binary vtk vtu; do
     mesh_convert "$DATA/readers/medit-surface.mesh" $format surface.$format
     tetmesh -q surface.$format --surface keep --points none -o found.mesh
@@ -909,6 +912,7 @@ PYTHON
 }
 
 @test "--improve gives up a run of TetGen that does not end" {
+  optimized_only "it is about times"
   tetmesh -q "$DATA/endless.off" --size 16% --surface keep --points lattice --improve 8 -o improved.mesh --stats stats.json
   holds 'stats["improved"]["rounds"] == 8' stats.json
   # Less: no run went on for ever. One seed in twelve meets one.
@@ -924,6 +928,7 @@ PYTHON
 }
 
 @test "--improve ends by --time-limit or a signal with the best mesh so far" {
+  optimized_only "it is about times"
   local part="$DATA/bracket.stl"
   tetmesh -q "$part" --size 8 -o plain.mesh
   tetmesh -q "$part" --size 8 --improve 1000000 --time-limit 0 -o at_once.mesh
@@ -972,6 +977,7 @@ PYTHON
 }
 
 @test "--grading says how fast sizes change, --size how large they get" {
+  optimized_only "it is about results"
   $SURFACES sized
   local more=100000 points
   for grading in 0.1 0.3 1; do

@@ -168,6 +168,7 @@ PYTHON
 }
 
 @test "dislocations of a bundle are in the page, and in pictures where asked for" {
+  optimized_only "it is about pictures"
   add_member mesh/dislocations.npy "np.array([[0, 0, 0, .5, .5, .5], [.5, .5, .5, 1, 1, 0]])"
   viewmesh more.tar -o page.html --png without.png
   assert_equal "$(scene page.html dislocations | "$PYTHON" -c 'import json, sys; print(sorted(json.load(sys.stdin)))')" "['lengths', 'points', 'sizes']"
@@ -185,6 +186,7 @@ PYTHON
 }
 
 @test "the title is the file's name where none is given" {
+  optimized_only "it is about the texts"
   viewmesh result.vtu -o page.html
   assert_equal "$(scene page.html title)" '"result.vtu"'
   viewmesh --mesh mesh.mesh -o page.html
@@ -236,6 +238,7 @@ PYTHON
 }
 
 @test "wrong words in --view end with 2" {
+  optimized_only "it is about the texts"
   while read -r state; do
     assert_fails_with 2 "--view: " viewmesh result.vtu --view "$state" -o no.html
   done <"$DATA/wrong_views.txt"

@@ -17,24 +17,6 @@ namespace {
 // meshio keeps Gmsh's and MEDIT's tags under the second and third, Gmsh writes the fourth.
 constexpr std::array<std::string_view, 4> foreign_tag_names{"tag", "gmsh:physical", "medit:ref", "CellEntityIds"};
 
-enum VtkType : std::uint8_t {
-  vtk_vertex = 1,
-  vtk_polyvertex = 2,
-  vtk_line = 3,
-  vtk_polyline = 4,
-  vtk_triangle = 5,
-  vtk_triangle_strip = 6,
-  vtk_polygon = 7,
-  vtk_pixel = 8,
-  vtk_quad = 9,
-  vtk_voxel = 11,
-  vtk_hex = 12,
-  vtk_quadratic_edge = 21,
-  vtk_cubic_line = 35,
-  vtk_lagrange_curve = 68,
-  vtk_bezier_curve = 75,
-};
-
 constexpr std::array dropped_types{vtk_vertex,         vtk_polyvertex, vtk_line,           vtk_polyline,
                                    vtk_quadratic_edge, vtk_cubic_line, vtk_lagrange_curve, vtk_bezier_curve};
 

@@ -14,6 +14,25 @@
 
 namespace hexpipe::formats {
 
+// VTK's numbers of the kinds of cells.
+enum VtkType : std::uint8_t {
+  vtk_vertex = 1,
+  vtk_polyvertex = 2,
+  vtk_line = 3,
+  vtk_polyline = 4,
+  vtk_triangle = 5,
+  vtk_triangle_strip = 6,
+  vtk_polygon = 7,
+  vtk_pixel = 8,
+  vtk_quad = 9,
+  vtk_voxel = 11,
+  vtk_hex = 12,
+  vtk_quadratic_edge = 21,
+  vtk_cubic_line = 35,
+  vtk_lagrange_curve = 68,
+  vtk_bezier_curve = 75,
+};
+
 // Cells of all kinds in one list, as the files hold them.
 struct VtkGrid {
   std::vector<Vec3> points;

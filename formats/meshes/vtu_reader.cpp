@@ -25,7 +25,6 @@ constexpr std::pair<std::string_view, ScalarType> vtu_type_names[] = {
 };
 
 constexpr const char *unstructured_type = "UnstructuredGrid", *polygons_type = "PolyData";
-constexpr std::uint8_t vtk_triangle_strip = 6, vtk_polygon = 7;
 
 class VtuReader {
  public:

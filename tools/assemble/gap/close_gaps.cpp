@@ -25,7 +25,7 @@ constexpr double slack = 0.5;
 constexpr double hoped_for = 0.3;
 // How good the cells around become, if they can: a hex counts half (patch.cpp), and has to come to 0.3.
 constexpr double goal = 0.17;
-constexpr int rounds_of_moves = 6;
+constexpr int rounds_of_closing = 6;
 
 }  // namespace
 
@@ -121,7 +121,7 @@ bool GapCloser::carry_out(const VertexMerge& merge, std::span<const GapIndex> ou
   const Replacement replacement{out, in, worth_of(gap_, out).floor, merge};
   patch_.take(moving, replacement);
   if (moves) patch_.place(merge.into, merge.at);
-  patch_.raise(goal, rounds_of_moves);
+  patch_.raise(goal, rounds_of_closing);
   if (!patch_.keeps_floors() || !patch_.costs_at_most(patch_.cost_before() - least_gain)) return false;
   patch_.carry_out(gap_, replacement);
   return true;

@@ -23,7 +23,7 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-constexpr int steps_to_place = 8;
+constexpr int steps_to_merge = 8;
 // A merge whose worst cell is above the first waits for vertices around it to make room, so often.
 constexpr double least_to_yield = -0.1;
 constexpr int rounds_to_yield = 4;
@@ -144,7 +144,7 @@ void StarMerger::offer_pair(Vertex from, Vertex into) {
              static_cast<int>(cell.vertices().size()) - 1);
   }
   const Vec3 before = gap_.points()[into];
-  const auto place = shape::raise_worst(star, (gap_.points()[from] + before) * 0.5, steps_to_place);
+  const auto place = shape::raise_worst(star, (gap_.points()[from] + before) * 0.5, steps_to_merge);
   if (place.worst < now.floor) {
     // A merge that is far too poor has no chance.
     if (place.worst > least_to_yield && neighbours_yield_)

@@ -18,7 +18,7 @@ namespace hexpipe::tetmesh::solid {
 namespace {
 
 // Intersections are counted up to this number: n copies of a triangle have n²/2 of them.
-constexpr std::size_t most_intersections = 10'000;
+constexpr std::size_t most_told_intersections = 10'000;
 // At most this many triangles of an edge are listed.
 constexpr std::size_t most_triangles_listed = 8;
 
@@ -262,7 +262,7 @@ void check_surface(const formats::SurfaceSoup& soup, std::string_view remedy) {
         check_orientation(soup, twins, remedy);
         check_vertices(soup, twins);
       },
-      [&] { report = geometry::find_intersections(soup.points, soup.triangles, most_intersections); });
+      [&] { report = geometry::find_intersections(soup.points, soup.triangles, most_told_intersections); });
   check_no_intersections(soup, report, remedy);
 }
 
@@ -271,7 +271,7 @@ void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy) {
 }
 
 void check_intersections(const formats::SurfaceSoup& soup, std::string_view remedy) {
-  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_intersections), remedy);
+  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_told_intersections), remedy);
 }
 
 }  // namespace hexpipe::tetmesh::solid

@@ -48,7 +48,7 @@ constexpr double fault_reach = 0.5;
 constexpr int careful_attempts = 4, most_attempts = 6;
 // On the new surface; each takes about 2 KB while the surface is made.
 constexpr double most_points = 2e7;
-constexpr std::size_t most_intersections = 1000;
+constexpr std::size_t most_seen_intersections = 1000;
 
 void append(std::vector<Vec3>& all, const std::vector<Vec3>& some) {
   all.insert(all.end(), some.begin(), some.end());
@@ -307,7 +307,7 @@ SurfaceRemesher::Work::Faults SurfaceRemesher::Work::find_faults() {
         back = one_sided_distance(given_.points, given_.triangles, output, spacing, limit);
       },
       [&] {
-        for (const auto& pair : geometry::find_intersections(made.points, made.triangles, most_intersections).pairs)
+        for (const auto& pair : geometry::find_intersections(made.points, made.triangles, most_seen_intersections).pairs)
           for (const std::int32_t i : pair) places.push_back(centre_of(static_cast<std::size_t>(i)));
       });
   too_far = {std::move(back.beyond), std::move(there.beyond)};
