@@ -534,6 +534,23 @@ END
   assert_fails_with 1 "TetGen failed: it took longer than --tetgen-timeout" tetmesh "$fine" --size 0.02 --tetgen-timeout 0.001 -q
 }
 
+@test "a size of its own is one of several, unless nearly all becomes hexes at once" {
+  optimized_only "it is about results"
+  local part="$DATA/plate-holes.stl"
+  tetmesh -q "$part" -o own.mesh --stats own.json
+  tetmesh -q "$part" --tries 1 -o once.mesh --stats once.json
+  holds '[round(t["size"] / once["size"], 6) for t in own["tried"]] == [1, 0.95]' own.json once.json
+  holds 'own["size"] == max(own["tried"], key=lambda t: t["estimated_hex_share"])["size"]' own.json
+  holds '"tried" not in once' once.json
+  tetmesh -q "$DATA/cube.stl" -o cube.mesh --stats cube.json
+  holds 'len(cube["tried"]) == 1 and cube["tried"][0]["estimated_hex_share"] > 0.96' cube.json
+  # A size that was asked for stays.
+  for option in '--size 0.2' '--curvature 12' '--layers 2'; do
+    tetmesh -q "$DATA/cube.stl" $option -o asked.mesh --stats asked.json
+    holds '"tried" not in asked' asked.json
+  done
+}
+
 @test "--stats tells where rows end, and the bundle has the lines inside" {
   optimized_only "it is about results"
   local part="$DATA/plate-holes.stl"
@@ -857,7 +874,7 @@ PYTHON
   assert_same_bytes tried.mesh again.mesh
   holds 'once["size"] == 10 and "tried" not in once' once.json
   holds 'len(tried["tried"]) == 4' tried.json
-  holds 'all(abs(t["size"] - size) < 1e-9 for t, size in zip(tried["tried"], (10, 9.5, 10.5, 9.75)))' tried.json
+  holds 'all(abs(t["size"] - size) < 1e-9 for t, size in zip(tried["tried"], (10, 9.5, 9.75, 10.5)))' tried.json
   holds 'tried["size"] == max(tried["tried"], key=lambda t: t["estimated_hex_share"])["size"] != 10' tried.json
   holds 'tried["tried"][0]["estimated_hex_share"] == max(once["estimated_hex_share"].values())' tried.json once.json
   holds 'len({t["estimated_hex_share"] for t in tried["tried"]}) == 4' tried.json

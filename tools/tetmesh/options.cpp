@@ -54,7 +54,7 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
 }
 
 void check_options(const TetmeshOptions& options) {
-  if (options.tries > 1 && options.surface == SurfaceKind::keep && !places_points(options.points))
+  if (options.tries.value_or(1) > 1 && options.surface == SurfaceKind::keep && !places_points(options.points))
     throw UsageError("--tries has no sizes to try with --surface keep and without points to place");
   if (const auto given = static_cast<double>(options.given_points.points.size()); given > options.most_points)
     throw DataError::at(options.given_points.name, "expected at most {:g} points (see --most-points), found {:g}",

@@ -28,7 +28,30 @@ namespace {
 
 // The sizes that are tried, in this order, as factors of the size asked for. The number of whole cells across a model
 // changes with the size, and so does the share of hexes, by several percent and in no particular order.
-constexpr std::array<double, most_tries> tried_sizes{1, 0.95, 1.05, 0.975, 1.025, 0.9625, 1.0375, 0.9875, 1.0125};
+constexpr std::array<double, most_tries> tried_sizes{1, 0.95, 0.975, 1.05, 1.025, 0.9625, 1.0375, 0.9875, 1.0125};
+
+// How many sizes are tried where the user asks for none, and for which meshes: a part of a few thousand cells takes seconds,
+// and where nearly all is likely to be hexes there is little to gain.
+constexpr std::size_t tries_of_own_size = 3;
+constexpr double most_points_to_try_again = 20000, enough_hexes = 0.96;
+
+struct Tries {
+  std::size_t most = 1;
+  double enough = 1;  // share of the volume in hexes after which no other size is tried
+};
+
+// Sizes that are asked for are not changed.
+bool chooses_size(const TetmeshOptions& o) {
+  return o.surface == SurfaceKind::remesh && places_points(o.points) && !o.sizes.size &&
+         o.sizes.sources.empty() && !o.sizes.curvature && !o.sizes.layers &&
+         o.asked_sizes.empty();
+}
+
+Tries tries_of(const solid::Surface& surface, const TetmeshOptions& options, double size) {
+  if (options.tries) return {.most = *options.tries};
+  if (!chooses_size(options) || sizing::points_expected(surface, size) > most_points_to_try_again) return {};
+  return {.most = tries_of_own_size, .enough = enough_hexes};
+}
 
 MeshedSurface mesh_at(double factor, const solid::Surface& surface, const sizing::SizeDemand& demand,
                       const sizing::SizeField& size, const MeshingOptions& options) {
@@ -40,14 +63,14 @@ MeshedSurface mesh_at(double factor, const solid::Surface& surface, const sizing
 // Keeps the mesh that is estimated to have most hexes. A size at which TetGen fails is passed over, unless it fails at
 // all sizes.
 MeshedSurface best_of_tries(const solid::Surface& surface, const sizing::SizeDemand& demand,
-                            const sizing::SizeField& size, std::size_t tries, const MeshingOptions& options) {
+                            const sizing::SizeField& size, const Tries& tries, const MeshingOptions& options) {
   std::optional<MeshedSurface> best;
   std::vector<TriedSize> tried;
   StepSeconds seconds;
   std::exception_ptr failure;
   std::size_t number = 0;
-  for (const double factor : std::span(tried_sizes).first(tries)) {
-    const auto share = [&](std::size_t done) { return static_cast<double>(done) / static_cast<double>(tries); };
+  for (const double factor : std::span(tried_sizes).first(tries.most)) {
+    const auto share = [&](std::size_t done) { return static_cast<double>(done) / static_cast<double>(tries.most); };
     const Step step(nullptr, share(number), share(number + 1));
     ++number;
     try {
@@ -60,10 +83,11 @@ MeshedSurface best_of_tries(const solid::Surface& surface, const sizing::SizeDem
       tried.push_back({factor * size.greatest(), {}});
       if (!failure) failure = std::current_exception();
     }
+    if (best && best->statistics.hex_share >= tries.enough) break;
   }
   if (!best) std::rethrow_exception(failure);
   best->statistics.seconds = seconds;
-  if (tries > 1) best->statistics.tried = std::move(tried);
+  if (tries.most > 1) best->statistics.tried = std::move(tried);
   return *std::move(best);
 }
 
@@ -117,7 +141,7 @@ std::size_t unite(formats::SurfaceSoup& soup) {
   return united;
 }
 
-MeshingOptions meshing_options(const TetmeshOptions& o) {
+MeshingOptions meshing_options(const TetmeshOptions& o, bool estimates) {
   return {o.surface == SurfaceKind::remesh,
           o.feature_angle,
           o.deviation,
@@ -129,7 +153,7 @@ MeshingOptions meshing_options(const TetmeshOptions& o) {
           o.seed,
           o.most_points,
           o.tetgen_timeout,
-          o.tries > 1};
+          estimates};
 }
 
 }  // namespace
@@ -161,7 +185,8 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   sizing::SizeDemand demand = sizing::demand_on(surface, options.sizes, options.feature_angle, triangles_stay);
   if (auto complaint = complaint_about_size(surface, demand.greatest)) warnings.push_back(*std::move(complaint));
   add_asked_sizes(surface, options.asked_sizes, options.tetgen_timeout, demand);
-  const double least_factor = std::ranges::min(std::span(tried_sizes).first(options.tries));
+  const Tries tries = tries_of(surface, options, demand.greatest);
+  const double least_factor = std::ranges::min(std::span(tried_sizes).first(tries.most));
   const bool places = places_points(options.points);
   // Before any memory is used for points, and before walls are measured.
   if (places) volume::check_point_count(surface, least_factor * demand.greatest, options.most_points);
@@ -172,7 +197,7 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
   // How long the search for better points takes is up to the user.
   step.reset();
   step.emplace(nullptr, 0.02, options.improve > 0 ? 0.1 : 1);
-  MeshedSurface meshed = best_of_tries(surface, demand, size, options.tries, meshing_options(options));
+  MeshedSurface meshed = best_of_tries(surface, demand, size, tries, meshing_options(options, tries.most > 1));
   step.reset();
   if (options.improve > 0)
     improve(meshed, surface, {options.improve, options.seed, options.time_limit, options.tetgen_timeout});
