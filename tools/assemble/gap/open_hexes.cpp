@@ -23,8 +23,9 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// One chosen cell in this many may go, and a few in any case, because each costs a share of the volume in hexes.
-constexpr std::size_t chosen_per_opened = 300, opened_in_any_case = 8;
+// So many chosen cells may go: one in 300, and one in a hundred, but at least one and at most eight. Each costs a share
+// of the volume in hexes: coarse blub, of 154 hexes, lost two points with eight in any case.
+constexpr std::size_t chosen_per_opened = 300, chosen_per_opened_of_few = 100, most_opened_of_few = 8;
 // The same for cells that solvers refuse.
 constexpr std::size_t chosen_per_refused = 1000;
 // How many chosen cells around a poor one are tried, those with the most vertices of it first. Later ones seldom help.
@@ -337,8 +338,9 @@ Opened HexOpener::run_wide() {
 
 Opened HexOpener::run() {
   Opened result;
-  const std::size_t most = gap_.is_strict() ? gap_.kept_count() / chosen_per_refused
-                                            : gap_.kept_count() / chosen_per_opened + opened_in_any_case;
+  const std::size_t kept = gap_.kept_count();
+  const std::size_t of_few = std::clamp(kept / chosen_per_opened_of_few, std::size_t{1}, most_opened_of_few);
+  const std::size_t most = gap_.is_strict() ? kept / chosen_per_refused : kept / chosen_per_opened + of_few;
   for (const auto c : indices<GapIndex>(gap_.cell_count())) {
     if (!is_poor(c)) continue;
     if (gap_.is_strict() && static_cast<std::size_t>(result.inserted) + result.chosen.size() >= most) break;
