@@ -135,9 +135,7 @@ assert share > 0.94, share'
 
 @test "coinor-cbc stands in for initsol and lns, and finds the optimum" {
   optimized_only "it is about another program"
-  local cells=7
-  if sanitized; then cells=5; fi  # of minutes, most would be the other solver's
-  $PYTHON "$DATA/box.py" $cells >box.off
+  $PYTHON "$DATA/box.py" 7 >box.off
   tetmesh box.off --size 1 --jitter 0.1 -q -o b.mesh
   findhex --mesh b.mesh -o b.cand
   buildgraph --candidates b.cand -o b.graph

@@ -14,7 +14,7 @@
 
 namespace hexpipe::formats {
 
-// VTK's numbers of the kinds of cells.
+// VTK's numbers of the cells that readers turn into ours, or drop. CellKind has those of ours.
 enum VtkType : std::uint8_t {
   vtk_vertex = 1,
   vtk_polyvertex = 2,

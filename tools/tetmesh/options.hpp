@@ -46,9 +46,9 @@ struct TetmeshOptions {
   bool repair = false;
   sizing::Length weld = {1e-4, true};
   std::size_t largest_hole = solid::RepairOptions{}.largest_hole;
-  double tetgen_timeout = 3600;           // seconds for all runs that make one mesh
+  double tetgen_timeout = 3600;  // seconds for all runs that make one mesh
   // Sizes up to 5 % off, of which the mesh with most hexes is kept; at most most_tries. Nothing: one where sizes are
-  // asked for, otherwise as many as pay on a small mesh.
+  // asked for or the mesh is large, otherwise up to three.
   std::optional<std::size_t> tries = {};
   std::size_t improve = 0;                // rounds of the search for better points
   std::optional<double> time_limit = {};  // of that search, in seconds

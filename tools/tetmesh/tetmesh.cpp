@@ -30,10 +30,11 @@ namespace {
 // changes with the size, and so does the share of hexes, by several percent and in no particular order.
 constexpr std::array<double, most_tries> tried_sizes{1, 0.95, 0.975, 1.05, 1.025, 0.9625, 1.0375, 0.9875, 1.0125};
 
-// How many sizes are tried where the user asks for none, and for which meshes: a part of a few thousand cells takes seconds,
-// and where nearly all is likely to be hexes there is little to gain.
+// So many sizes are tried where the user asks for none, until this share of the volume is likely to become hexes:
+// beyond it there is little to gain. Large meshes, by the points expected inside, are made once, because each try takes
+// as long as the first.
 constexpr std::size_t tries_of_own_size = 3;
-constexpr double most_points_to_try_again = 20000, enough_hexes = 0.96;
+constexpr double enough_hexes = 0.96, most_points_to_try_again = 20000;
 
 struct Tries {
   std::size_t most = 1;
@@ -42,9 +43,8 @@ struct Tries {
 
 // Sizes that are asked for are not changed.
 bool chooses_size(const TetmeshOptions& o) {
-  return o.surface == SurfaceKind::remesh && places_points(o.points) && !o.sizes.size &&
-         o.sizes.sources.empty() && !o.sizes.curvature && !o.sizes.layers &&
-         o.asked_sizes.empty();
+  return o.surface == SurfaceKind::remesh && places_points(o.points) && !o.sizes.size && o.sizes.sources.empty() &&
+         !o.sizes.curvature && !o.sizes.layers && o.asked_sizes.empty();
 }
 
 Tries tries_of(const solid::Surface& surface, const TetmeshOptions& options, double size) {

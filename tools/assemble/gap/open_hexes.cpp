@@ -114,8 +114,7 @@ std::vector<std::vector<GapIndex>> HexOpener::rooms_beside(std::span<const Facet
   std::vector<GapIndex> between;
   for (const Facet& facet : skin)
     for (const GapIndex c : gap_.cells_at(facet.corners[0])) {
-      const auto common =
-          std::ranges::count_if(gap_.cell(c).vertices(), [&](Vertex v) { return gap_.cell(poor).has(v); });
+      const int common = gap_.cell(c).count_common(gap_.cell(poor));
       if (c == poor || common < 2 || std::ranges::find(between, c) != between.end()) continue;
       bool touches = false;
       for_facets(gap_.cell(c).kind, gap_.cell(c).vertices(),

@@ -24,7 +24,7 @@ double in_units(const Length& length, const formats::SurfaceSoup& surface);
 // The diagonal of the box around the points, along the axes.
 double bounding_box_diagonal(const formats::SurfaceSoup& surface);
 
-// The size in the units of the surface. Without a length, it is that of common/mesh/default_size.hpp. If the surface's
+// The size in the units of the surface. Without a length, it is that of common/mesh/defaults.hpp. If the surface's
 // triangles stay as they are, it is also at most the spacing of the vertices (the side of a square for each of them),
 // because that size suits them.
 double element_size(const solid::Surface& surface, const std::optional<Length>& length, bool triangles_stay = true);

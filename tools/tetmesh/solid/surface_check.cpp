@@ -271,7 +271,8 @@ void check_areas(const formats::SurfaceSoup& soup, std::string_view remedy) {
 }
 
 void check_intersections(const formats::SurfaceSoup& soup, std::string_view remedy) {
-  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_told_intersections), remedy);
+  check_no_intersections(soup, geometry::find_intersections(soup.points, soup.triangles, most_told_intersections),
+                         remedy);
 }
 
 }  // namespace hexpipe::tetmesh::solid

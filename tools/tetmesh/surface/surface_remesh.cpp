@@ -307,7 +307,8 @@ SurfaceRemesher::Work::Faults SurfaceRemesher::Work::find_faults() {
         back = one_sided_distance(given_.points, given_.triangles, output, spacing, limit);
       },
       [&] {
-        for (const auto& pair : geometry::find_intersections(made.points, made.triangles, most_seen_intersections).pairs)
+        for (const auto& pair :
+             geometry::find_intersections(made.points, made.triangles, most_seen_intersections).pairs)
           for (const std::int32_t i : pair) places.push_back(centre_of(static_cast<std::size_t>(i)));
       });
   too_far = {std::move(back.beyond), std::move(there.beyond)};
