@@ -1,10 +1,7 @@
 # The direction of includes: tools -> formats -> common, and each library in its place.
+# bats file_tags=optimized
 
 load helpers
-
-setup() {
-  optimized_only "it is about the sources"
-}
 
 # All lists are made once, and the tests ask them: a process for each of some thousand files takes half a minute.
 setup_file() {
@@ -230,4 +227,11 @@ namespace_of() {
     page=${header%/*}/README.md
     [[ ! -e $page || $(<"$page") == *"\`${header##*/}\`"* ]] || fail "$header stands in no README"
   done
+}
+
+@test "each test runs in one half of tests/run.sh at least" {
+  cd "$HEXPIPE_SOURCE/tests"
+  grep -nE '^# *bats ' ./*.bats | grep -vE ':# bats (file|test)_tags=(optimized|both)$' | assert_none "unknown tags"
+  # What skips under the sanitizers would run nowhere.
+  grep -nE 'sanitized.*skip' ./*.bats | grep -v assert_none | assert_none "expected the tag 'optimized'"
 }

@@ -1,4 +1,5 @@
 # assemble: the mesh from the chosen cells. What all tools do alike is in behaviour.bats.
+# bats file_tags=both
 
 load helpers
 
@@ -62,8 +63,8 @@ assert eval(sys.argv[2]), (sys.argv[2], s)" "$(stats_of "$1")" "$2"
   grep -q " $found quads non-conforming" summary
 }
 
+# bats test_tags=optimized
 @test "--exchange lets hexes give way to others: fewer quads face tets, fewer pyramids" {
-  optimized_only "it is about results"
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 5 | findhex | buildgraph | initsol --iterations 20000 -o bracket.tar
   # Merging and prisms take pyramids away afterwards, and so hide how many each choice needs.
@@ -150,8 +151,9 @@ PYTHON
   assert_same_bytes vertices.vtu default.vtu
 }
 
+# Under the sanitizers the unit tests mend random meshes.
+# bats test_tags=optimized
 @test "--mend finite-volumes leaves less that checkMesh counts as wrong; it is the default for OpenFOAM alone" {
-  optimized_only "the unit tests mend random meshes"
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 3 | findhex | buildgraph | initsol --iterations 20000 -o part.tar
   assemble part.tar --stats default.json -o default.vtu
@@ -401,8 +403,8 @@ lattice_mesh() {
   assemble --mesh lattice.mesh --candidates lattice.cand --solution part.sol --format $2 -o $3
 }
 
+# bats test_tags=optimized
 @test "GetFEM solves Poisson's equation: a linear field exactly, errors of second order in L2 and first in H1" {
-  if sanitized; then skip "what it looks at is done by GetFEM"; fi
   $PYTHON -c "import getfem, scipy" 2>/dev/null || skip "python3-getfem and python3-scipy are not installed"
   for n in 3 6 12; do lattice_mesh $n msh22 $n.msh; done
   $PYTHON "$CHECKERS/poisson_getfem.py" 3.msh 6.msh 12.msh >errors

@@ -54,8 +54,8 @@ product_ending() {
   esac
 }
 
+# bats test_tags=optimized
 @test "--help explains itself, with an example that names the tool, on standard output" {
-  optimized_only "it is about the texts"
   for tool in $TOOLS; do
     run_apart $tool --help
     assert_success
@@ -68,8 +68,8 @@ product_ending() {
   done
 }
 
+# bats test_tags=optimized
 @test "--help begins with the few options that matter first, then goes by subject, and ends with what all tools have" {
-  optimized_only "it is about the texts"
   local first groups
   for tool in $TOOLS; do
     groups=$($tool --help | sed -nE 's/^([A-Z][A-Za-z, ]+):$/\1/p' | tr '\n' ';')
@@ -93,8 +93,8 @@ product_ending() {
   done
 }
 
+# bats test_tags=optimized
 @test "a bad command line ends with 2 and one line" {
-  optimized_only "it is about the texts"
   for tool in $TOOLS; do
     assert_fails_with 2 "$tool: .*--no-such-option" $tool --no-such-option
     assert_fails_with 2 "$tool: .*threads" $tool --threads many
@@ -105,8 +105,8 @@ product_ending() {
   done
 }
 
+# bats test_tags=optimized
 @test "a misspelled option is answered with the one that was meant" {
-  optimized_only "it is about the texts"
   for tool in $TOOLS; do
     assert_fails_with 2 "^$tool: The following arguments were not expected: --thread 2 \(did you mean --threads\? see $tool --help\)$" \
       $tool "$STAGES/$tool.in" --thread 2
@@ -132,8 +132,8 @@ product_ending() {
   lns -q --iterations 5 "$STAGES/lns.in" -o /dev/null --log /dev/null --stats /dev/null
 }
 
+# bats test_tags=optimized
 @test "statistics and a log go to standard output by '-', where the product does not" {
-  optimized_only "it is about results"
   for tool in $TOOLS; do
     $tool -q $(limited $tool) "$STAGES/$tool.in" -o out.tar --stats - >stats.json
     assert_equal "$($PYTHON -c 'import json; print(json.load(open("stats.json"))["tool"])')" "$tool"
@@ -159,8 +159,8 @@ product_ending() {
   lns -q --iterations 5 part.tar -o part.tar --stats stats.json
 }
 
+# bats test_tags=optimized
 @test "a seed that is negative or too large for 64 bits, and a time limit of NaN, end with 2" {
-  optimized_only "it is about the texts"
   for tool in initsol lns $(grep -oE "tetmesh|lns-mpi" <<<"$TOOLS"); do
     for seed in -1 18446744073709551616 1.5 ""; do
       assert_fails_with 2 "^$tool: --seed: expected a whole number" $tool "$STAGES/$tool.in" --seed "$seed"
@@ -177,8 +177,8 @@ product_ending() {
   assert_fails_with 2 "at most one" lns --graph - --solution -
 }
 
+# bats test_tags=optimized
 @test "an unknown key in a --config file ends with 2; a known one counts" {
-  optimized_only "it is about the texts"
   echo "no-such-key=1" >bad.ini
   echo "threads=0" >good.ini
   for tool in $TOOLS; do
@@ -189,8 +189,8 @@ product_ending() {
   done
 }
 
+# bats test_tags=optimized
 @test "a bundle is not written to a terminal" {
-  optimized_only "it is about the texts"
   for tool in $TOOLS; do
     run script -qec "$tool '$STAGES/$tool.in' 2>message" /dev/null </dev/null
     assert_equal "$status" 2
@@ -204,8 +204,9 @@ on_terminal() {
   TERM=xterm script -qec "$1" /dev/null </dev/null | tr '\r' '\n' | sed 's/\x1b\[K//g'
 }
 
+# Under the sanitizers the line takes long to come.
+# bats test_tags=optimized
 @test "progress is a line on a terminal; -q shows none, lines of -v stay whole, files get none" {
-  optimized_only "it is about the line, which takes long to come there"
   [[ -x "$HEXPIPE_BIN/tetmesh" ]] || skip "tetmesh is not built"
   # Rounds in place of seconds: on a busy machine the first round may take longer than any number of them.
   local search="tetmesh '$DATA/bracket.stl' --size 8 --improve 12 -o out.mesh"
@@ -222,8 +223,8 @@ on_terminal() {
   assert_output ""
 }
 
+# bats test_tags=optimized
 @test "nothing to read at a terminal ends with 2" {
-  optimized_only "it is about the texts"
   for tool in $READERS; do
     run script -qec "$tool -o out.tar" /dev/null </dev/null
     assert_equal "$status" 2
@@ -253,8 +254,8 @@ on_terminal() {
   assert_fails_with 1 "expected solution for assemble" assemble "$STAGES/initsol.in"
 }
 
+# bats test_tags=optimized
 @test "success is silent" {
-  optimized_only "it is about results"
   for tool in $TOOLS; do
     run_apart $tool $(limited $tool) "$STAGES/$tool.in" -o out.tar -q
     assert_success
@@ -262,8 +263,8 @@ on_terminal() {
   done
 }
 
+# bats test_tags=optimized
 @test "-v speaks on standard error only" {
-  optimized_only "it is about results"
   for tool in $TOOLS; do
     run_apart $tool $(limited $tool) "$STAGES/$tool.in" -o out.tar -v
     assert_success
@@ -272,8 +273,8 @@ on_terminal() {
   done
 }
 
+# bats test_tags=optimized
 @test "file, pipe and process substitution give the same bytes" {
-  optimized_only "it is about results"
   for tool in $READERS; do
     $tool $(limited $tool) "$STAGES/$tool.in" -o file.tar
     $tool $(limited $tool) <"$STAGES/$tool.in" >redirected.tar
@@ -284,8 +285,8 @@ on_terminal() {
   done
 }
 
+# bats test_tags=optimized
 @test "1 and 2 threads, and two runs, give the same bytes" {
-  optimized_only "it is about results"
   for tool in $TOOLS; do
     $tool $(limited $tool) --threads 1 "$STAGES/$tool.in" -o one.tar -q
     $tool $(limited $tool) --threads 2 "$STAGES/$tool.in" -o two.tar -q
@@ -308,8 +309,9 @@ on_terminal() {
   done
 }
 
+# The address sanitizer takes terabytes of addresses.
+# bats test_tags=optimized
 @test "--memory is an error before too much is taken, and stays out of the history" {
-  if sanitized; then skip "the address sanitizer takes terabytes of addresses"; fi
   for tool in $TOOLS; do
     assert_fails_with 2 "$tool: --memory: " $tool "$STAGES/$tool.in" --memory lots
     assert_fails_with 2 "$tool: --memory: " $tool "$STAGES/$tool.in" --memory=-1
@@ -358,15 +360,15 @@ PYTHON
   fi
 }
 
+# bats test_tags=optimized
 @test "a default of several values stands in the history as it would be typed" {
-  optimized_only "it is about the texts"
   findhex -q "$STAGES/findhex.in" -o out.tar
   run tar xOf out.tar "$(tar tf out.tar | grep 'history/.*-findhex.json')"
   assert_output --partial '"cells": "hex"'
 }
 
+# bats test_tags=optimized
 @test "every output is a bundle that the independent checker accepts" {
-  optimized_only "it is about results"
   for tool in $TOOLS; do
     $tool $(limited $tool) "$STAGES/$tool.in" -o out.tar -q
     run "$CHECKERS/bundle_check.py" out.tar
@@ -376,8 +378,8 @@ PYTHON
   done
 }
 
+# bats test_tags=optimized
 @test "compressed bundles are written by name or by --compress, and read" {
-  optimized_only "it is about results"
   for tool in $READERS; do
     $tool $(limited $tool) "$STAGES/$tool.in" -o plain.tar
     $tool $(limited $tool) "$STAGES/$tool.in" -o small.tar.zst
@@ -389,8 +391,8 @@ PYTHON
   done
 }
 
+# bats test_tags=optimized
 @test "the product alone: by ending, by --format on standard output, the same bytes" {
-  optimized_only "it is about results"
   for tool in $TOOLS; do
     local ending
     ending=$(product_ending $tool)
@@ -401,6 +403,7 @@ PYTHON
   done
 }
 
+# bats test_tags=both
 @test "a bundle cut anywhere is an error, and nothing looks complete" {
   local step=2
   if sanitized; then step=10; fi
@@ -505,8 +508,8 @@ print((len(data.rstrip(b'\0')) + 511) // 512 * 512)" "$STAGES/$tool.in")
   done
 }
 
+# bats test_tags=optimized
 @test "--stats writes JSON with the tool's name and seconds" {
-  optimized_only "it is about results"
   for tool in $TOOLS; do
     $tool $(limited $tool) -q "$STAGES/$tool.in" -o out.tar --stats stats.json
     run $PYTHON -c "
@@ -519,8 +522,8 @@ assert len(stats) > 2, stats"
   done
 }
 
+# bats test_tags=optimized
 @test "a killed tool leaves neither a temporary file nor a half-written one" {
-  optimized_only "it is about files"
   mkfifo slow
   for tool in $READERS; do
     echo old >out.tar
@@ -608,8 +611,8 @@ PYTHON
   done
 }
 
+# bats test_tags=optimized
 @test "standard error that cannot be written changes nothing" {
-  optimized_only "it is about messages"
   for tool in $TOOLS; do
     $tool $(limited $tool) "$STAGES/$tool.in" -v -o out.tar 2>/dev/full
     $tool $(limited $tool) "$STAGES/$tool.in" -v -o other.tar 2>&-

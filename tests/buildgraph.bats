@@ -107,8 +107,8 @@ setup_file() {
   assert_fails_with 1 "candidates: expected (prices|weights) .*--weight-scale" buildgraph "$INPUTS/hexes.tar" --quad-reward 10 --weight-scale 1e16 -o out.tar
 }
 
+# bats test_tags=optimized
 @test "fragments of lns and lns-mpi are candidates, whatever quads a graph has" {
-  optimized_only "it is about results"
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 8 | findhex | buildgraph --quad-reward 0.2 --stats graph.json -o quads.tar
   initsol quads.tar --iterations 0 -o start.tar
@@ -168,6 +168,7 @@ PYTHON
   assert [ ! -e out.graph ]
 }
 
+# bats test_tags=both
 @test "numbers far beyond the rest need no memory" {
   printf 'hexpipe-candidates 1 2 3 0\n' >far.cand
   printf 'pyramid 0.5 1 2 0 1 2 3 4 2147483647 1 2147483647\npyramid 0.5 1 1 0 1 2 3 5 6 7\n' >>far.cand
@@ -201,8 +202,8 @@ number() {
   $PYTHON -c "import json; print(json.load(open('$2'))['$1'])"
 }
 
+# bats test_tags=optimized
 @test "--cover adds an edge clique cover, which passes through the stages and certify prices" {
-  optimized_only "it is about results"
   for name in hexes mixed; do
     buildgraph "$INPUTS/$name.cand" --format tar >plain.tar
     buildgraph "$INPUTS/$name.cand" --cover -v --stats stats.json --format tar >cover.tar 2>notes
@@ -254,8 +255,8 @@ optimum() {
   number weight exact.json
 }
 
+# bats test_tags=optimized
 @test "--reduce leaves out dominated candidates, of their list too, and the optimum is the same" {
-  optimized_only "it is about results"
   for name in hexes few; do
     buildgraph "$INPUTS/$name.cand" --format tar >whole.tar
     buildgraph "$INPUTS/$name.cand" --reduce -v --stats stats.json --format tar >reduced.tar 2>notes

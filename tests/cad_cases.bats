@@ -1,4 +1,5 @@
 # From STEP with names to cases of CalculiX and OpenFOAM that run, with boundary conditions and materials by name.
+# bats file_tags=optimized
 
 load helpers
 

@@ -154,8 +154,8 @@ all_algorithms() {
   certify --help | tr -d '\n ' | sed -n 's/.*--algorithm[A-Z]*:{\([a-z,-]*\)}.*/\1/p' | tr , ' '
 }
 
+# bats test_tags=optimized
 @test "every --algorithm proves the optimum that cbc finds on fragments of a real graph" {
-  optimized_only "it is about results"
   command -v cbc >/dev/null || skip "needs coinor-cbc"
   findhex --mesh "$DATA/jittered_lattice.mesh" | buildgraph -o part.graph
   printf "1\n" >one.sol
@@ -201,8 +201,8 @@ with open(name + ".graph", "w") as graph, open(name + ".sol", "w") as solution:
 PYTHON
 }
 
+# bats test_tags=optimized
 @test "weights of very different sizes overflow no bound" {
-  optimized_only "it is about results"
   heavy_graph 1000000000000000 100000 first
   heavy_graph 100000000000000000 3000 second
   heavy_graph 4000000000000000000 300 third

@@ -1,11 +1,8 @@
 # Each call of the system fails once, the disk is full, the tool is killed: tests/faults/README.md. A quick share of it.
+# The sanitizers interpose the same calls.
+# bats file_tags=optimized
 
 load helpers
-
-setup() {
-  mkdir "$BATS_TEST_TMPDIR/work" && cd "$BATS_TEST_TMPDIR/work" || return 1
-  if sanitized; then skip "the sanitizers interpose the same calls"; fi
-}
 
 for_tools() {
   HEXPIPE_BIN="$HEXPIPE_BIN" timeout 300 "$PYTHON" "$HEXPIPE_SOURCE/tests/faults/inject.py" \

@@ -31,6 +31,7 @@ two_regions() {
        { print }' "$1"
 }
 
+# bats test_tags=both
 @test "the lattices have the published numbers of candidates, conflicts and conflicts at a candidate" {
   local rows=0
   while IFS=, read -r name n _ _ quality candidates edges degree _; do
@@ -48,8 +49,8 @@ print(s['vertices'], s['edges'], s['max_degree'])"
   assert [ $rows -ge 10 ]
 }
 
+# bats test_tags=optimized
 @test "large lattices have the published numbers of candidates" {
-  if sanitized; then skip "takes minutes with sanitizers"; fi
   lattice kuhn 20 >k.mesh
   findhex -q --mesh k.mesh --folded-quads keep --flat-corners keep --max-boundary-tets 5 --quality corner -o k.cand
   assert_equal "$(count k.cand)" 321740
@@ -58,16 +59,16 @@ print(s['vertices'], s['edges'], s['max_degree'])"
   assert_equal "$(count f.cand)" 62864
 }
 
+# bats test_tags=optimized
 @test "hexes, prisms and pyramids of Delaunay meshes are those of an independent search" {
-  optimized_only "it is about results"
   for mesh in random_points jittered_lattice; do
     agrees "$DATA/$mesh.mesh" $ALL_KINDS --min-quality 0.1 --folded-quads keep --quality corner
     agrees "$DATA/$mesh.mesh" $ALL_KINDS --min-quality 0 --inner-vertices forbid --max-boundary-tets 2
   done
 }
 
+# bats test_tags=optimized
 @test "so are those of meshes with regions and surface tags" {
-  optimized_only "it is about results"
   for mesh in random_points jittered_lattice; do
     two_regions "$DATA/$mesh.mesh" >regions.mesh
     agrees regions.mesh $ALL_KINDS
@@ -101,8 +102,8 @@ PYTHON
   assert_equal "$(count found.cand)" 170
 }
 
+# bats test_tags=optimized
 @test "no quad lies over a sharp edge of the surface" {
-  optimized_only "it is about results"
   local mesh="$DATA/quad-folded-over-box-edge.mesh"
   agrees "$mesh"
   assert_equal "$(count found.cand)" 0
@@ -123,6 +124,7 @@ print(json.load(open('stats.json'))['hexes']['rejected']['rule 10, a quad over a
   assert_success
 }
 
+# bats test_tags=both
 @test "ridges of a mesh are sharp edges, in a file and in a bundle" {
   lattice kuhn 3 >plain.mesh
   findhex -q --mesh plain.mesh -o plain.cand
@@ -187,6 +189,7 @@ OPTIONS
   assert_equal "$(count with.cand) $(count without.cand)" "1 0"
 }
 
+# bats test_tags=both
 @test "cells that leave a flat corner at the surface are rejected, and no others" {
   local mesh="$DATA/jittered_lattice.mesh"
   findhex -q --mesh "$mesh" $ALL_KINDS --flat-corners keep -o kept.cand

@@ -1,4 +1,5 @@
 # fitcad: the boundary of a result on the CAD's own faces and curves.
+# bats file_tags=both
 
 load helpers
 
@@ -45,8 +46,8 @@ PYTHON
 # All of the cylinder's side is at one distance from the axis; its ends are flat.
 ON_CYLINDER='sorted(abs(from_axis(q) - 2).max() < 7.5e-6 for q in of.values()) == [False, False, True]'
 
+# bats test_tags=optimized
 @test "on a cylinder and on a sphere, vertices of the boundary are on the CAD, and were not before" {
-  optimized_only "it is about results"
   cad cylinder 'Cylinder(1) = {0, 0, 0, 0, 0, 5, 2};'
   result cylinder 0.8
   fitcad cylinder.tar -o fitted.tar --stats cylinder.json
@@ -86,8 +87,8 @@ ON_CYLINDER='sorted(abs(from_axis(q) - 2).max() < 7.5e-6 for q in of.values()) =
   holds_for fitted.tar '(norm(np.column_stack([from_axis(p) - 1, p[:, 2] - 2]), axis=1) < 1e-6).sum() >= 12'
 }
 
+# bats test_tags=optimized
 @test "faces that meet at a small angle: vertices near a curve that belong on a face go there, and none is held" {
-  optimized_only "it is about results"
   # A bar with three sides. At one end two of its corners have 6 degrees, and its sides are twisted.
   cad bar 'Point(1) = {0, 0, 0}; Point(2) = {0, 0, 5}; Point(3) = {1, 0.84, 0}; Point(4) = {1, -0.84, 0}; Point(5) = {1, 9, 5}; Point(6) = {1, -9, 5};
     Line(1) = {1, 2}; Line(2) = {3, 4}; Line(3) = {1, 3}; Line(4) = {1, 4}; Line(5) = {5, 6}; Line(6) = {2, 5}; Line(7) = {2, 6}; Line(8) = {3, 5}; Line(9) = {4, 6};

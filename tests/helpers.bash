@@ -1,9 +1,16 @@
 # Loaded by every .bats file: `load helpers`. Puts the built tools on the PATH and gives each test a directory of its own.
+#
+# tests/run.sh runs most tests in one of its two halves. Tags above a test, or at the top of a file, say in which:
+#   # bats test_tags=optimized  The optimized half alone: takes long under the sanitizers and runs no code there that others
+#                               do not run. A build with sanitizers never runs it.
+#   # bats test_tags=both       Both: about results, which have to be the same whatever the compiler made of the code, or
+#                               with a smaller share of the work under the sanitizers.
+#   no tag                      The sanitized half alone: about what does not depend on it, like messages and formats.
 
 export BATS_LIB_PATH="${BATS_LIB_PATH:-/usr/lib/bats}"
 load "$BATS_LIB_PATH/bats-support/load.bash"
 load "$BATS_LIB_PATH/bats-assert/load.bash"
-bats_require_minimum_version 1.5.0
+bats_require_minimum_version 1.8.0 # which knows tags
 
 HEXPIPE_SOURCE="${HEXPIPE_SOURCE:-$(cd "$BATS_TEST_DIRNAME/.." && pwd)}"
 HEXPIPE_BIN="${HEXPIPE_BIN:-$HEXPIPE_SOURCE/build/bin}"
@@ -105,9 +112,4 @@ has_ended() {
 
 sanitized() {
   [[ -n "${HEXPIPE_SANITIZE:-}" ]]
-}
-
-# optimized_only WHY: skips a test that takes long under the sanitizers and runs no code there that others do not run.
-optimized_only() {
-  if sanitized; then skip "$1"; fi
 }

@@ -30,8 +30,8 @@ setup_file() {
   assert_success
 }
 
+# bats test_tags=optimized
 @test "on a terminal, one line shows the stage at work, and what it has" {
-  optimized_only "it is about the line"
   # Iterations in place of seconds: on a busy machine the stages before it may take longer than those.
   TERM=xterm script -qec "hexpipe '$DATA/bracket.stl' --size 6 -o out.vtu --lns '--worth 0 --iterations 800'" /dev/null </dev/null |
     tr '\r' '\n' | sed 's/\x1b\[K//g' >shown
@@ -42,8 +42,8 @@ setup_file() {
   assert_equal "$(cat shown)" ""
 }
 
+# bats test_tags=optimized
 @test "--dry-run prints a shell command that makes the same bytes, and does nothing" {
-  optimized_only "it is about results"
   run_apart quick -o "it's.vtu" --keep 'two words' --seed 3 --lns '--iterations 20' --initsol "--iterations 100" --dry-run
   assert_success
   assert [ ! -e "it's.vtu" ]
@@ -56,8 +56,8 @@ setup_file() {
   for stage in mesh candidates conflicts solution choice; do assert_same_bytes "by_hand/$stage.tar" "two words/$stage.tar"; done
 }
 
+# bats test_tags=optimized
 @test "--from goes on from each stage that was kept, to the same mesh" {
-  optimized_only "it is about results"
   local fixed=(--initsol '--iterations 100' --lns '--iterations 20') stage
   quick -q -o all.vtu --keep stages "${fixed[@]}"
   for stage in mesh candidates conflicts solution choice; do
@@ -71,8 +71,8 @@ setup_file() {
   done
 }
 
+# bats test_tags=optimized
 @test "each effort, --threads, --size and options of a stage reach the tools" {
-  optimized_only "it is about results"
   run quick -o x.vtu --dry-run --threads 2 --seed 7
   assert_output --partial "tetmesh $DATA/cube.stl --size 0.5 --threads 2 --seed 7"
   assert_output --partial "lns --threads 2 --seed 7 --time-limit 3"
@@ -95,8 +95,8 @@ setup_file() {
   assert_line --index 0 "findhex --mesh tets.msh |"
 }
 
+# bats test_tags=optimized
 @test "the boundary of a mesh from CAD lies on the CAD, and --from knows that it is CAD" {
-  optimized_only "it is about results"
   [[ -x "$HEXPIPE_BIN/fitcad" ]] || skip "fitcad is not built"
   hexpipe -q "$DATA/simp.step" --size 14 --effort quick --initsol '--iterations 100' --lns '--iterations 10' --keep stages -o simp.vtu --stats simp.json
   holds "simp['fitcad']['distance']['vertices'] < 1e-6 * simp['fitcad']['diagonal'] < simp['fitcad']['distance_before']['vertices'] * 1e3" simp.json
@@ -153,8 +153,8 @@ setup_file() {
   assert_fails_with 2 "--page and --png show" hexpipe part.stl -o x.inp --page x.html
 }
 
+# bats test_tags=optimized
 @test "Ctrl-C once: the searches end, and the mesh is assembled" {
-  optimized_only "it is about the line"
   # At 4 % initsol proves its choice the best, and lns has nothing to search.
   hexpipe "$DATA/bracket.stl" --size 2.5% -o bracket.vtu --initsol '--iterations 10' --lns '--time-limit 1000' 2>messages 3>&- &
   local pid=$!

@@ -79,8 +79,8 @@ PYTHON
   assert [ ! -e out.sol ]
 }
 
+# bats test_tags=optimized
 @test "--method, --seed, --hot, --cold, --starts change the search" {
-  optimized_only "it is about results"
   whole --iterations 4000 -o base.sol
   whole --iterations 4000 --method anneal -o same.sol
   assert_same_bytes base.sol same.sol

@@ -1,4 +1,5 @@
 # What bootstrap.sh installs, and what cmake --install and the packages bring.
+# bats file_tags=optimized
 
 load helpers
 

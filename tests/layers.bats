@@ -1,4 +1,5 @@
 # Layers at walls: assemble --boundary-layers and --pillow.
+# bats file_tags=both
 
 load helpers
 
@@ -90,8 +91,8 @@ PYTHON
   done
 }
 
+# bats test_tags=optimized
 @test "layers are the same for any number of threads" {
-  optimized_only "it is about results"
   assemble --threads 1 "$WORK/pipe.tar" --boundary-layers all=4 --first-height 0.02 -o one.vtu
   assemble --threads 3 "$WORK/pipe.tar" --boundary-layers all=4 --first-height 0.02 -o three.vtu
   assert_same_bytes one.vtu three.vtu
@@ -120,8 +121,8 @@ plate.obj 0.4 1
 PARTS
 }
 
+# bats test_tags=optimized
 @test "every format takes layers, with names" {
-  optimized_only "it is about results"
   local format
   for format in mesh msh vtk inp su2 bdf; do
     assemble -q "$WORK/pipe.tar" --boundary-layers wall=2 --first-height 0.02 -o "mesh.$format"
@@ -132,8 +133,8 @@ PARTS
   assert [ -s polyMesh/faces ]
 }
 
+# bats test_tags=optimized
 @test "with --order 2, feet on curved walls keep the first height" {
-  optimized_only "it is about results"
   # Between the coarse ring's corners, vertices are up to 0.017 off the fine one.
   "$DATA/ring.py" 6 >coarse.stl
   "$DATA/ring.py" >ring.stl
@@ -158,8 +159,8 @@ assert len(heights) > 50 and abs(heights / 0.02 - 1).max() < 0.15, (len(heights)
 PYTHON
 }
 
+# bats test_tags=optimized
 @test "OpenFOAM finds layers well" {
-  optimized_only "it is about another program"
   command -v checkMesh >/dev/null || skip "openfoam is not installed"
   export WM_PROJECT_DIR=${WM_PROJECT_DIR:-/usr/share/openfoam}
   mkdir -p case/system case/constant

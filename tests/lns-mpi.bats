@@ -44,8 +44,8 @@ weight_of() {
   "$CHECKERS/solution_check.py" ring.graph "$1" | sed 's/.*weight //'
 }
 
+# bats test_tags=optimized
 @test "the result is independent and heavier, and the same on 1, 2 and 4 ranks" {
-  optimized_only "it is about results"
   for ranks in 1 2 4; do on $ranks --iterations 200 --no-reductions --round 20 -o $ranks.sol; done
   run "$CHECKERS/solution_check.py" ring.graph 1.sol
   assert_success
@@ -54,8 +54,8 @@ weight_of() {
   assert_same_bytes 1.sol 4.sol
 }
 
+# bats test_tags=optimized
 @test "a bundle through pipes, and without mpirun" {
-  optimized_only "it is about results"
   on 2 --iterations 50 -o two.sol
   lns-mpi --graph ring.graph --solution start.sol --iterations 50 -o alone.sol
   initsol ring.graph --iterations 0 --greedy weight |
@@ -68,8 +68,8 @@ weight_of() {
   assert_same_bytes two.sol piped.sol
 }
 
+# bats test_tags=optimized
 @test "every option changes the search" {
-  optimized_only "it is about results"
   whole() { lns-mpi --graph ring.graph --solution start.sol --iterations 60 --no-reductions "$@"; }
   whole -o base.sol
   whole --blocks 9 -o blocks.sol
@@ -118,8 +118,9 @@ PYTHON
   assert_equal "$(ls state | wc -l)" 2
 }
 
+# Cut-off ones are read in the same way.
+# bats test_tags=optimized
 @test "a checkpoint of another graph, and a damaged one, are errors" {
-  optimized_only "cut-off checkpoints are read in the same way"
   on 2 --iterations 20 --checkpoint state -o one.sol
   "$PYTHON" "$DATA/ring_graph.py" 3000 1500 2 >other.graph
   initsol other.graph --iterations 0 -o other.sol
@@ -174,8 +175,8 @@ PYTHON
   refuse "$round/0001.tar: expected the state of 2 blocks in this part of a checkpoint"
 }
 
+# bats test_tags=optimized
 @test "--prove proves a bound on any number of ranks, close to that of certify" {
-  optimized_only "it is about results"
   for ranks in 1 2; do
     on $ranks --iterations 100 --prove 60 --certificate $ranks.proof --stats $ranks.json -o out.sol
     run "$CHECKERS/bound_check.py" ring.graph $ranks.proof
@@ -213,8 +214,8 @@ PYTHON
   assert_same_bytes 1.proof 2.proof
 }
 
+# bats test_tags=optimized
 @test "SIGTERM to one rank, and SIGUSR1 to mpirun, write the best so far and end well" {
-  optimized_only "it is about mpirun"
   local job
   for signal in TERM USR1; do
     start_long
@@ -229,8 +230,8 @@ PYTHON
   done
 }
 
+# bats test_tags=optimized
 @test "under a time limit a rank searches its blocks as one, and each rank has a block" {
-  optimized_only "it is about results"
   "$PYTHON" "$DATA/random_graph.py" 1000 >ring.graph
   initsol ring.graph --iterations 0 -o start.sol
   # Alone, it has nothing to wait for at the end of a round.
@@ -256,8 +257,8 @@ PYTHON
   grep -q "expected at least a block for each of 6 ranks, found 4" <<<"$stderr"
 }
 
+# bats test_tags=optimized
 @test "more ranks than blocks, and bad input, are one line of one rank" {
-  optimized_only "it is about the texts"
   refuse() {
     local ranks=$1 message=$2
     shift 2
@@ -275,8 +276,8 @@ PYTHON
   assert_equal "$(grep -c '^lns-mpi: ' <<<"$stderr")" 1
 }
 
+# bats test_tags=optimized
 @test "a rank that alone has a wrong option says so" {
-  optimized_only "it is about the texts"
   cat >wrapper <<'SHELL'
 #!/bin/bash
 if [[ $OMPI_COMM_WORLD_RANK == 1 ]]; then extra=(--no-such-option); fi
@@ -288,8 +289,8 @@ SHELL
   assert_equal "$(grep -c '^lns-mpi: .*--no-such-option' <<<"$stderr")" 1
 }
 
+# bats test_tags=optimized
 @test "a rank that dies ends the job, which names it" {
-  optimized_only "it is about mpirun"
   local job
   start_long --checkpoint state --checkpoint-interval 0
   await test -e state/checkpoint.json
@@ -332,8 +333,8 @@ parts_of() {
   buildgraph "$1.candidates2.tar" --neighbours "$1.candidates0.tar" "$1.candidates1.tar" -o "${1}2.tar"
 }
 
+# bats test_tags=optimized
 @test "parts that were made apart are searched together, and their solutions merge into one" {
-  optimized_only "it is about results"
   "$PYTHON" "$DATA/lattices/lattice.py" kuhn 3 >lattice.mesh
   parts_of part lattice.mesh
   for ranks in 1 3; do
@@ -378,8 +379,8 @@ SHELL
   assert_fails_with 2 "expected --parts or a graph" lns-mpi --parts part0.tar --graph ring.graph -o out
 }
 
+# bats test_tags=optimized
 @test "what goes wrong beside the solution does not cost it" {
-  optimized_only "it is about results"
   on 2 --iterations 30 --prove 2 -o whole.sol
   for side in log fragments certificate; do
     run on 2 --iterations 30 --prove 2 -o $side.sol --$side /dev/full
@@ -390,8 +391,8 @@ SHELL
   done
 }
 
+# bats test_tags=optimized
 @test "a run that goes on gives nothing lighter than what it was given" {
-  optimized_only "it is about results"
   # Reductions leave out u, which v could replace; x keeps v out, and p comes in, one lighter than u, until the search
   # gets there.
   "$PYTHON" - <<'PYTHON'

@@ -231,8 +231,8 @@ assert complete or 0.5 <= points[-1]["seconds"] < 20
 PYTHON
 }
 
+# bats test_tags=optimized
 @test "--fragments writes what was improved, a line each" {
-  optimized_only "it is about results"
   ring --iterations 300 --no-reductions -o out.sol --fragments parts --stats stats.json
   "$PYTHON" - <<'PYTHON'
 import json
@@ -286,8 +286,8 @@ PYTHON
   assert_fails_with 2 "lns: .*--worth" hard out --worth 2
 }
 
+# bats test_tags=optimized
 @test "--worth judges a large graph by a sample of its places" {
-  optimized_only "it is about results"
   "$PYTHON" "$DATA/ring_graph.py" 60000 40000 1 >large.graph
   initsol large.graph --no-reductions --iterations 60000 -o large.sol
   large() { lns --graph large.graph --solution large.sol --no-reductions --stats "$1.json" -o "$1.sol" "${@:2}"; }
@@ -302,8 +302,8 @@ assert usual["improvements"] > 0 and usual["weight"] >= (1 - 5e-5) * whole["weig
 PYTHON
 }
 
+# bats test_tags=optimized
 @test "--worth judges a search once exact fragments have gone over the whole graph" {
-  optimized_only "it is about results"
   # A lattice of 12 x 12 x 12 hexes, where greedy finds the best choice. Half of each fragment counts as seen, at least 6
   # of the hexes.
   tetmesh "$DATA/cube.stl" --size 0.083 | findhex | buildgraph | initsol --iterations 0 -o lattice.tar
@@ -440,8 +440,8 @@ PYTHON
   assert_equal "$(wc -l <out.sol)" 60
 }
 
+# bats test_tags=optimized
 @test "--slim leaves the conflicts out, which assemble does not miss and certify does" {
-  optimized_only "it is about members of bundles"
   tetmesh "$DATA/cube.stl" --size 0.3 | findhex | buildgraph --cover | initsol --iterations 100 -o start.tar
   lns start.tar --iterations 20 -o full.tar
   lns start.tar --iterations 20 --slim -o slim.tar

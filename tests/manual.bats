@@ -1,4 +1,5 @@
 # Man pages and completion, as the build makes them beside the tools, and the pages that are installed with them.
+# bats file_tags=optimized
 
 load helpers
 
@@ -150,7 +151,6 @@ CMAKE
 }
 
 @test "the examples of the man pages are command lines that the tools take" {
-  optimized_only "it is about results"
   for page in "$HEXPIPE_SOURCE"/docs/man/*.h2m; do
     while read -r line; do
       IFS='|' read -ra stages <<<"$line"

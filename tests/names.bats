@@ -168,8 +168,8 @@ PYTHON
   assert_fails_with 2 "expected --name TAG=NAME or 'region TAG=NAME', found 'inlet'" tetmesh "$DATA/cube.stl" --name inlet -o x.mesh
 }
 
+# bats test_tags=optimized
 @test "tetmesh --size NAME=LENGTH is the size at a surface" {
-  optimized_only "it is about results"
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   points() { tetmesh "$DATA/cube.stl" --tags-by-angle --name 3=inlet "$@" --stats stats.json -o cube.mesh && $PYTHON -c 'import json; print(json.load(open("stats.json"))["points"])'; }
   local plain
@@ -195,8 +195,8 @@ PYTHON
   assert_fails_with 2 "expected a positive length such as" tetmesh "$DATA/cube.stl" --size 1=x -o x.mesh
 }
 
+# bats test_tags=optimized
 @test "tetmesh --size 'body NAME=LENGTH' is the size in a body, smaller or larger than elsewhere" {
-  optimized_only "it is about results"
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   local bodies="$DATA/touching/face-touch-two-bodies.off"
   # tets_in ARGUMENTS...: of both bodies.

@@ -37,20 +37,20 @@ parts_equal_whole() {
 
 ALL="--cells hex,prism,pyramid --min-quality 0.1"
 
+# bats test_tags=optimized
 @test "parts of a bar of Delaunay tets give the candidates and the graph of a single run" {
-  optimized_only "it is about results"
   bar >bar.mesh
   parts_equal_whole bar "1 2 3 7 16" $ALL
 }
 
+# bats test_tags=optimized
 @test "so do those of a lattice" {
-  optimized_only "it is about results"
   bar --kuhn >kuhn.mesh
   parts_equal_whole kuhn "3 16" $ALL
 }
 
+# bats test_tags=optimized
 @test "so do those of two regions with tags, of pieces that do not touch, and of tets turned inside out" {
-  optimized_only "it is about results"
   bar --regions >regions.mesh
   parts_equal_whole regions "7" $ALL
   bar --length 10 --apart >apart.mesh
@@ -59,8 +59,8 @@ ALL="--cells hex,prism,pyramid --min-quality 0.1"
   parts_equal_whole folded "7" $ALL
 }
 
+# bats test_tags=optimized
 @test "so do those of a mesh with ridges, which some parts have none of" {
-  optimized_only "it is about results"
   bar --kuhn >plain.mesh
   $PYTHON - >ridges.mesh <<'PYTHON'
 import itertools
@@ -84,8 +84,8 @@ PYTHON
   assert [ "$(wc -l <ridges.candidates.cand)" -lt "$(wc -l <plain.candidates.cand)" ]
 }
 
+# bats test_tags=optimized
 @test "so do parts as small as a tet, and a mesh that is one" {
-  optimized_only "it is about results"
   bar --length 1 --kuhn >small.mesh
   parts_equal_whole small 54 $ALL
   # More parts than files that a process may have open at first.
@@ -231,6 +231,7 @@ PYTHON
   assert [ "$status" -le 1 ]
 }
 
+# bats test_tags=both
 @test "parts that claim a whole of any size cost no memory for it" {
   bar --length 1 --kuhn >small.mesh
   mesh-part -q small.mesh --parts 2 -o two
@@ -321,8 +322,8 @@ assert_is_whole() {
     "$(sed -n s/^volume=//p <<<"$1")" "$2" "$(sed -n s/^volume_gap=//p <<<"$1")"
 }
 
+# bats test_tags=optimized
 @test "pieces of a lattice are the hexes of a single run, for any number of parts" {
-  optimized_only "it is about results"
   bar --length 6 --kuhn >kuhn.mesh
   for k in 2 7; do
     solve_parts kuhn.mesh $k k$k
@@ -336,8 +337,8 @@ assert_is_whole() {
   done
 }
 
+# bats test_tags=optimized
 @test "pieces of Delaunay tets conform, with their regions, tags, and pieces that do not touch" {
-  optimized_only "it is about results"
   for options in "--length 10" "--length 5 --regions --apart"; do
     rm -rf k
     bar $options >bar.mesh
@@ -365,9 +366,9 @@ surface_of() {
   for member in $(tar tf "$1" | grep ^surface/ | sort); do echo "$member $(tar xOf "$1" "$member" | sha256sum)"; done
 }
 
+# bats test_tags=optimized
 @test "the surface and the CAD's faces go through parts and pieces, to fitcad and to nodes of second order" {
   if [[ ! -x "$HEXPIPE_BIN/tessellate" ]]; then skip "tessellate is not built"; fi
-  optimized_only "it is about results"
   tessellate -q "$DATA/simp.step" --unit mm | tetmesh -q --size 12 -o mesh.tar
   local whole
   whole=$(surface_of mesh.tar)
@@ -392,8 +393,8 @@ surface_of() {
   assert_fails_with 1 "other.tar: surface/points.npy: expected the same as in the first bundle, found other bytes" merge-parts k/graph-0000.tar other.tar
 }
 
+# bats test_tags=optimized
 @test "pieces are files of VTK with a .pvtu, points that several have are the same in all" {
-  optimized_only "it is about results"
   bar --length 8 --regions >bar.mesh
   solve_parts bar.mesh 3 k $ALL
   assemble_parts k
@@ -529,8 +530,8 @@ PYTHON
   assert [ ! -e out.vtu ] && [ ! -e out.tar ]
 }
 
+# bats test_tags=optimized
 @test "the commands of docs/many-machines.md split a mesh, and assemble its parts in as many rounds as they need" {
-  optimized_only "it is about the commands"
   # page FIRST LAST: the indented lines between two that begin like these.
   page() { sed -n "/^    $1/,/^    $2/s/^    //p" "$HEXPIPE_SOURCE/docs/many-machines.md"; }
   # Parts of these points settle in the third round.
@@ -549,8 +550,8 @@ PYTHON
   assert grep -qx is_conforming=True <<<"$(statistics merged.vtu)"
 }
 
+# bats test_tags=optimized
 @test "the Slurm script's jobs run the pipeline, each when those before it have succeeded" {
-  optimized_only "it is about the script"
   bar >bar.mesh
   mkdir bin
   # Runs a job at once, all numbers of its array, and prints its number; a search by one process stands for that of lns-mpi.

@@ -1,4 +1,5 @@
 # The stages together, the way users chain, swap and drive them.
+# bats file_tags=both
 
 load helpers
 
@@ -41,8 +42,8 @@ assert reader.GetErrorCode() == 0"
   assert_success
 }
 
+# bats test_tags=optimized
 @test "a plate of one and a half sizes becomes hexes, for it has as many layers everywhere" {
-  optimized_only "it is about results"
   for size in 8 8.4 8.8; do
     shell "tetmesh -q '$DATA/plate-holes.stl' --size $size | findhex -q | buildgraph -q |
       initsol -q --iterations 2000 | assemble -q --stats stats.json -o plate.vtu"
@@ -52,8 +53,8 @@ assert share > 0.94, share'
   done
 }
 
+# bats test_tags=optimized
 @test "Makefile.examples drives it through files, several parts at a time" {
-  optimized_only "it is about results"
   make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" MODELS="$DATA" SIZE=8 TIME=1 bracket.vtu bracket.msh
   mesh_is_valid bracket.vtu
   mesh_is_valid bracket.msh
@@ -72,8 +73,8 @@ assert share > 0.94, share'
   assert_output "$HEXPIPE_BIN/tetmesh part.stl --size 3 -o part.mesh"
 }
 
+# bats test_tags=optimized
 @test "clean of Makefile.examples takes away what the examples made, and nothing else" {
-  if sanitized; then skip "it is about the Makefile"; fi
   examples() { make -s -j2 -f "$HEXPIPE_SOURCE/Makefile.examples" BIN="$HEXPIPE_BIN" PARTS="$DATA" SIZE=8 TIME=1 "$@"; }
   touch engine.msh backup.tar page.html bracket.stl.orig
   mkdir engine.pieces
@@ -96,8 +97,8 @@ assert share > 0.94, share'
   assert_equal "$(ls)" "$theirs"
 }
 
+# bats test_tags=optimized
 @test "files and pipes give the same result" {
-  optimized_only "it is about results"
   tetmesh "$DATA/bracket.stl" --size 8 -q -o b.mesh
   findhex --mesh b.mesh -o b.cand
   buildgraph --candidates b.cand -o b.graph
@@ -109,8 +110,8 @@ assert share > 0.94, share'
   assert_same_bytes files.vtu pipes.vtu
 }
 
+# bats test_tags=optimized
 @test "the whole pipeline gives the same bytes for 1 and 2 threads" {
-  optimized_only "it is about results"
   for threads in 1 2; do
     shell "tetmesh '$DATA/bracket.stl' --size 8 -q --threads $threads | findhex --threads $threads |
       buildgraph --threads $threads | initsol --iterations 500 --threads $threads |
@@ -119,8 +120,8 @@ assert share > 0.94, share'
   assert_same_bytes 1.tar 2.tar
 }
 
+# bats test_tags=optimized
 @test "the Python stage of formats/README.md works in the middle of a pipe" {
-  optimized_only "it is about another program"
   sed -n '/^```python stage$/,/^```$/p' "$HEXPIPE_SOURCE/formats/README.md" | sed '1d;$d' >stage.py
   assert [ "$(grep -c . stage.py)" -le 20 ]
   shell "tetmesh '$DATA/bracket.stl' --size 8 -q | findhex | tee plain.tar | $PYTHON stage.py | buildgraph | initsol --iterations 100 |
@@ -133,8 +134,8 @@ assert share > 0.94, share'
   assert_different_bytes before.npy after.npy
 }
 
+# bats test_tags=optimized
 @test "coinor-cbc stands in for initsol and lns, and finds the optimum" {
-  optimized_only "it is about another program"
   $PYTHON "$DATA/box.py" 7 >box.off
   tetmesh box.off --size 1 --jitter 0.1 -q -o b.mesh
   findhex --mesh b.mesh -o b.cand
@@ -150,8 +151,8 @@ assert share > 0.94, share'
   assert_equal "$ours" "$optimum"
 }
 
+# bats test_tags=optimized
 @test "a user's own mesh from Gmsh, with regions, is the start" {
-  optimized_only "it is about results"
   cat >two.geo <<'GEO'
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};
@@ -233,8 +234,9 @@ PYTHON
   assert_equal "$code" 130
 }
 
+# Under the sanitizers TetGen begins late, and the signal is the same.
+# bats test_tags=optimized
 @test "Ctrl-C ends tetmesh once its pipe is read, and leaves no file" {
-  optimized_only "TetGen begins late there, and the signal is the same"
   cat "$DATA/cube.stl" | { tetmesh -q --size 0.02 -o out.tar & echo $! >tool; wait $! || echo $? >code; } &
   await test -s tool
   await pgrep -P "$(cat tool)"  # TetGen, once the surface is read
@@ -281,8 +283,8 @@ PYTHON
   assert_fails_with 1 "^tetmesh: The following argument" shell 'tetmesh --no-such open.off | findhex | buildgraph'
 }
 
+# bats test_tags=optimized
 @test "in a pipe that another program fills, a tool says what it found" {
-  optimized_only "it is about the texts"
   assert_fails_with 1 "^findhex: stdin: expected a bundle or the mesh, found nothing" shell 'true | findhex'
   tetmesh -q "$DATA/cube.stl" -o cube.tar
   assert_fails_with 1 "^findhex: stdin: .*Truncated" shell 'head -c 1500 cube.tar | findhex'
@@ -291,8 +293,8 @@ PYTHON
   shell '{ tetmesh no.stl 2>/dev/null || cat cube.tar; } | findhex -q | buildgraph -q -o cube.graph'
 }
 
+# bats test_tags=optimized
 @test "a tool whose reader failed ends without a word" {
-  optimized_only "it is about the line"
   tetmesh -q "$DATA/bracket.stl" --size 6 -o bracket.tar
   mkfifo go
   # findhex has more to write than a pipe holds, and does so when buildgraph has failed.

@@ -1,9 +1,9 @@
 # docs/python.md: its examples run, and print what the page shows.
+# bats file_tags=optimized
 
 load helpers
 
 @test "the examples of the page about Python work and print what it shows, numbers aside" {
-  if sanitized; then skip "other tests run these tools; here it would take minutes"; fi
   $PYTHON -c "import matplotlib" 2>/dev/null || skip "python3-matplotlib is not installed"
   export MPLCONFIGDIR="$PWD"
   run "$PYTHON" "$HEXPIPE_SOURCE/docs/tutorial/run.py" "$HEXPIPE_SOURCE/docs/python.md" "$PWD"

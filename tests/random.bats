@@ -1,5 +1,6 @@
 # Random meshes, graphs and surfaces through whole pipelines, by the checkers: a few cases here, thousands by hand
 # (tests/random/random_pipelines.py --cases 2000 --seed new).
+# bats file_tags=both
 
 load helpers
 

@@ -1,4 +1,5 @@
 # The same bytes however the pipeline is run: tests/reproducible/results.sh, here over two small parts.
+# bats file_tags=both
 
 load helpers
 
@@ -12,8 +13,8 @@ load helpers
   assert_output --regexp "(28|42|56) files compared, 0 differ"
 }
 
+# bats test_tags=optimized
 @test "results.sh tells when a stage differs" {
-  if sanitized; then skip "it is about the script"; fi
   [[ -x $HEXPIPE_BIN/tetmesh ]] || skip "built without TetGen"
   mkdir other
   ln -s "$HEXPIPE_BIN"/{tetmesh,findhex,buildgraph,initsol,certify,assemble} other

@@ -125,8 +125,8 @@ PYTHON
   assert_success
 }
 
+# bats test_tags=optimized
 @test "without a surface, flat faces between roundings stay flat, and the volume is nearer than with straight edges" {
-  optimized_only "it is about results"
   tetmesh "$DATA/bracket.stl" --size 6 -q | findhex | buildgraph | initsol --iterations 20000 -o bracket.tar
   assemble bracket.tar --stats straight.json -q -o straight.vtu
   run_apart assemble bracket.tar --order 2 -o bracket.vtu
@@ -149,8 +149,8 @@ PYTHON
   assert_equal "$(value is_positive)" 1
 }
 
+# bats test_tags=optimized
 @test "every format has the same cells, volumes and groups, in its own reader" {
-  optimized_only "it is about results"
   choice
   for nodes in serendipity full; do
     assemble choice.tar --order 2 --nodes $nodes --surface ring.stl --stats $nodes.json -o ring-$nodes.vtu
@@ -198,8 +198,8 @@ GEO
   done
 }
 
+# bats test_tags=optimized
 @test "CalculiX: pyramids become tets with tied nodes, and the volume is right" {
-  optimized_only "it is about another program"
   choice
   run_apart assemble choice.tar --order 2 --surface ring.stl --solver calculix -v -o ring.inp
   assert_success
@@ -234,8 +234,8 @@ EVOL
   assert_near "$(value volume)" 2e-5 "$output"
 }
 
+# bats test_tags=optimized
 @test "CalculiX opens a ring under pressure as Lamé says, with tied nodes, twenty times as exactly as at first order" {
-  optimized_only "it is about results"
   command -v ccx >/dev/null || skip "calculix-ccx is not installed"
   choice
   local order
@@ -329,8 +329,8 @@ PYTHON
        END { printf "%.2g\n", most / 210 }' case.dat
 }
 
+# bats test_tags=optimized
 @test "CalculiX finds a constant stress exactly where tets stand for pyramids, and not in collapsed hexes" {
-  optimized_only "it is about another program"
   command -v ccx >/dev/null || skip "calculix-ccx is not installed"
   lattice_with_pyramids
   run grep -c '^\*EQUATION' split.inp

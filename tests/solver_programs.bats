@@ -1,5 +1,6 @@
 # Programs that CI does not install, because they are large: Netgen, deal.II, FreeCAD, dolfinx, OpenFOAM, MFEM. docs/solvers.md
 # tells how these tests are run.
+# bats file_tags=optimized
 
 load helpers
 

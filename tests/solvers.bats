@@ -427,8 +427,8 @@ PYTHON
 }
 
 # A plate of one layer, from which some hexes were left out: halves, polyhedra and faces with more corners meet there.
+# bats test_tags=optimized
 @test "--polyhedra makes a thin plate and a part OK for checkMesh, and heat flows through it exactly" {
-  optimized_only "it is about another program"
   need_openfoam
   openfoam_case case
   # Exact for linear fields on any cells.

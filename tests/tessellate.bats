@@ -60,8 +60,8 @@ PYTHON
   assert [ "$(surface simp.tar 'len(curves)')" -gt 50 ]
 }
 
+# bats test_tags=optimized
 @test "its bundle goes through the whole pipeline" {
-  optimized_only "it is about results"
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   step named
   tessellate named.step | tetmesh --size 5 | findhex | buildgraph | initsol --iterations 100 | assemble -o named.tar
@@ -83,8 +83,8 @@ PYTHON
   assert [ "$(surface round.tar 'len(triangles)')" -gt $((2 * count)) ]
 }
 
+# bats test_tags=optimized
 @test "the default deviation is a hundredth of the size that tetmesh chooses" {
-  optimized_only "it is about results"
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
   tessellate "$DATA/simp.step" --stats cad.json | tetmesh --tries 1 --stats mesh.json -o mesh.tar
   run $PYTHON -c 'import json; print(abs(json.load(open("mesh.json"))["size"] / json.load(open("cad.json"))["deviation"] / 100 - 1) < 0.01)'
@@ -174,8 +174,8 @@ END
   assert_equal "$(surface roof.tar 'sum(np.linalg.norm(points[a] - points[b]) for (a, b), tag in zip(curves, curve_tags) if abs(points[a] - points[b])[1] > 3 and points[a][2] > 2.3)')" 4.0
 }
 
+# bats test_tags=optimized
 @test "bodies stand side by side, five hundred of them too" {
-  optimized_only "it is about results"
   step apart many
   tessellate apart.step -o apart.tar
   assert_equal "$(surface apart.tar 'sides.tolist() == [[1, 0]] * 12 + [[2, 0]] * 12')" True
@@ -242,9 +242,9 @@ END
   assert_equal "$(surface kept.tar 'sides.tolist()')" "$(surface joined.tar 'sides.tolist()')"
 }
 
+# bats test_tags=optimized
 @test "a baffle of CAD is in the mesh, with hexes on both sides, on the CAD's face" {
   if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
-  optimized_only "it is about results"
   step baffle
   tessellate baffle.step --keep-baffles -o baffle.tar
   run_apart tetmesh baffle.tar --size 0.5 -o dropped.tar
@@ -320,8 +320,9 @@ PYTHON
   assert_output 0
 }
 
+# The sanitizer catches the signal.
+# bats test_tags=optimized
 @test "where OpenCASCADE crashes, a line says on which file" {
-  optimized_only "the sanitizer catches the signal"
   mkfifo endless.step
   exec {writer}<>endless.step
   tessellate endless.step -o x.tar 2>crash.txt &

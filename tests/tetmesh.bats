@@ -33,6 +33,7 @@ regions() {
   $CONTENTS regions "$1"
 }
 
+# bats test_tags=both
 @test "the same surface from every format is the same mesh" {
   tetmesh "$FILES/cube.off" --surface keep --points none -o off.tar
   for file in cube.obj cube.ascii.ply cube.binary_little_endian.ply cube.binary_big_endian.ply; do
@@ -47,6 +48,7 @@ regions() {
   done
 }
 
+# bats test_tags=both
 @test "the surfaces in formats/README.md are the tet that they say" {
   $SURFACES documented "$HEXPIPE_SOURCE/formats/README.md"
   assert_equal "$(ls | tr '\n' ' ')" "tet.obj tet.off tet.ply tet.stl "
@@ -59,8 +61,8 @@ regions() {
   done
 }
 
+# bats test_tags=optimized
 @test "file, redirection, pipe and process substitution give the same bytes" {
-  optimized_only "it is about results"
   for file in cube.stl cube.ascii.stl cube.obj cube.off cube.ascii.ply cube.binary_big_endian.ply; do
     local surface="$FILES/$file"
     tetmesh -q --size 0.3 "$surface" -o file.tar
@@ -72,8 +74,8 @@ regions() {
   done
 }
 
+# bats test_tags=optimized
 @test "1 and 2 threads, and two runs, give the same bytes" {
-  optimized_only "it is about results"
   tetmesh "$DATA/bracket.stl" --size 6 --threads 1 -o one.tar
   tetmesh "$DATA/bracket.stl" --size 6 --threads 2 -o two.tar
   tetmesh "$DATA/bracket.stl" --size 6 --threads 2 -o again.tar
@@ -81,8 +83,8 @@ regions() {
   assert_same_bytes two.tar again.tar
 }
 
+# bats test_tags=optimized
 @test "a real part: surface kept, volume right, conforming by the independent checker" {
-  optimized_only "it is about results"
   run_apart tetmesh "$DATA/bracket.stl" --surface keep --size 5 -o part.msh --stats stats.json
   assert_success
   assert_equal "$output$stderr" ""
@@ -94,14 +96,15 @@ regions() {
   assert_conforming part.msh
 }
 
+# bats test_tags=both
 @test "a raw CAD tessellation with slivers" {
   tetmesh -q "$DATA/plate-holes.stl" --surface keep --size 3% -o plate.tar --stats stats.json
   assert_equal "$(stats surface_points)" 618
   assert_equal "$(regions plate.tar | cut -c 1-8)" 1:767362
 }
 
+# bats test_tags=optimized
 @test "the same tessellation out of the axes, where TetGen fails in some orders of its input" {
-  optimized_only "it is about results"
   for turn in 1 2 3 4; do
     $SURFACES turned "$DATA/plate-holes.stl" $turn >turned.obj
     for points in none lattice; do
@@ -113,6 +116,7 @@ regions() {
   assert [ "$(sort -n runs | tail -1)" -gt 1 ]
 }
 
+# bats test_tags=both
 @test "shells that nearly touch are filled, as near as TetGen can tell them apart" {
   for gap in 1e-8 1e-9 1e-12; do
     $SURFACES beside $gap 0.25 0.25 >near.obj
@@ -122,6 +126,7 @@ regions() {
   done
 }
 
+# bats test_tags=both
 @test "where TetGen fails on the new surface, the given one is kept, with a warning" {
   # New points on an edge of the one come within 4 steps of doubles to corners of the other.
   $SURFACES beside 8.9e-16 0.25 0.5 >near.obj
@@ -161,6 +166,7 @@ print({tag: round(float(v), 9) for tag, v in sorted(volumes.items())})
 PYTHON
 }
 
+# bats test_tags=both
 @test "bodies that touch in a face, an edge or a corner, and rooms with a wall between them, are regions" {
   local name
   for name in edge-touch face-touch-two-bodies; do
@@ -173,6 +179,7 @@ PYTHON
   assert_equal "$(volumes_of corner.mesh | tail -1)" "{1: 1.0, 2: 1.0}"
 }
 
+# bats test_tags=both
 @test "an interface of two bodies is meshed once, and told" {
   run_apart tetmesh "$DATA/touching/face-touch-two-bodies.off" --size 0.3 --stats stats.json -o touch.tar
   assert_success
@@ -196,6 +203,7 @@ PYTHON
   assert_line --regexp "^9 \{'(hexahedron', 'quad|quad', 'hexahedron)'\}$"
 }
 
+# bats test_tags=both
 @test "a fin is told and goes" {
   run_apart tetmesh "$DATA/touching/fin-on-edge.off" --size 0.5 -o fin.mesh
   assert_success
@@ -243,8 +251,8 @@ print(dict(kinds), f"{area:.4f}", len(regions))
 PYTHON
 }
 
+# bats test_tags=optimized
 @test "baffles are kept if asked for: hexes on both sides share their quads, and they keep their names" {
-  optimized_only "it is about results"
   local kind
   for kind in standing floating through-roof; do baffle "$kind" -q --size 0.5; done
   run inside standing.msh vane
@@ -259,8 +267,8 @@ PYTHON
   run ! grep -q vane none.msh
 }
 
+# bats test_tags=optimized
 @test "baffles cross, bulge and close to a ring; the surface is made anew and each keeps its area" {
-  optimized_only "it is about results"
   baffle cross -q --size 0.5
   run inside cross.msh vane
   assert_output "{'quad': 32} 8.0000 1"
@@ -282,6 +290,7 @@ PYTHON
   assert_output --regexp " 5\.[789][0-9]+ 1$"
 }
 
+# bats test_tags=both
 @test "baffles with --surface keep, on a lattice and in a bundle" {
   $PYTHON "$DATA/baffles.py" floating >floating.obj
   tetmesh floating.obj --keep-baffles --surface keep --points none -o kept.msh
@@ -383,8 +392,9 @@ tetmesh: warning: outside.obj: --keep-baffles finds no sheet that ends inside"
   assert_output --partial "(see wrap)"
 }
 
+# The unit tests and the fuzzers read such files.
+# bats test_tags=optimized
 @test "surfaces are read as other programs write them" {
-  optimized_only "the unit tests and the fuzzers read such files"
   # same_volume FILE: as the cube of 12 triangles has it
   same_volume() {
     run_apart tetmesh "$1" --surface keep --points none -o found.mesh
@@ -423,8 +433,8 @@ tetmesh: warning: outside.obj: --keep-baffles finds no sheet that ends inside"
   assert_fails_with 1 "^tetmesh: cut.gz: expected the rest of a gzip file" shell 'gzip -c "'"$FILES"'/cube.obj" | head -c 60 >cut.gz; tetmesh cut.gz'
 }
 
+# bats test_tags=optimized
 @test "surfaces come in mesh formats, too" {
-  optimized_only "it is about results"
   for format in mesh msh msh-binary msh22 msh22-binary vtk vtu; do
     mesh_convert "$DATA/readers/medit-surface.mesh" $format surface.$format
     tetmesh -q surface.$format --surface keep --points none -o found.mesh
@@ -461,6 +471,7 @@ END
 }
 
 # The unit tests of the readers try every length.
+# bats test_tags=both
 @test "a surface cut anywhere is an error and leaves nothing" {
   local cuts=40
   if sanitized; then cuts=12; fi
@@ -515,8 +526,8 @@ END
   assert_fails_with 1 "^tetmesh: .*cube.stl: expected a size .*1e-06" timeout 120 tetmesh "$FILES/cube.stl" --size 1e-6
 }
 
+# bats test_tags=optimized
 @test "every option changes something" {
-  optimized_only "it is about results"
   local fine="$FILES/fine.stl"
   tetmesh "$fine" --size 0.2 -o base.mesh
   tetmesh "$fine" --size 0.15 -o size.mesh
@@ -534,8 +545,8 @@ END
   assert_fails_with 1 "TetGen failed: it took longer than --tetgen-timeout" tetmesh "$fine" --size 0.02 --tetgen-timeout 0.001 -q
 }
 
+# bats test_tags=optimized
 @test "a size of its own is one of several, unless nearly all becomes hexes at once" {
-  optimized_only "it is about results"
   local part="$DATA/plate-holes.stl"
   tetmesh -q "$part" -o own.mesh --stats own.json
   tetmesh -q "$part" --tries 1 -o once.mesh --stats once.json
@@ -551,8 +562,8 @@ END
   done
 }
 
+# bats test_tags=optimized
 @test "--stats tells where rows end, and the bundle has the lines inside" {
-  optimized_only "it is about results"
   local part="$DATA/plate-holes.stl"
   tetmesh -q "$part" --size 11 --points frame -o frame.tar --stats stats.json
   $PYTHON -c "assert $(stats row_ends) > 0"
@@ -571,8 +582,8 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   assert_failure
 }
 
+# bats test_tags=optimized
 @test "--stretch joins rows on faces with features, as far as it may" {
-  optimized_only "it is about results"
   local part="$DATA/plate-holes.stl"
   tetmesh -q "$part" --size 11 --points none -o base.mesh
   tetmesh -q "$part" --size 11 --points none --stretch 0 -o zero.mesh
@@ -585,8 +596,8 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   assert_fails_with 2 "^tetmesh: .*stretch" tetmesh "$part" --stretch -1
 }
 
+# bats test_tags=optimized
 @test "--feature-angle and --deviation say what of a surface stays" {
-  optimized_only "it is about results"
   local part="$DATA/bracket.stl"
   tetmesh -q "$part" --size 8 --points none -o base.mesh --stats stats.json
   local points=$(stats surface_points)
@@ -604,6 +615,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   assert_fails_with 2 "^tetmesh: .*surface" tetmesh "$part" --surface new
 }
 
+# bats test_tags=both
 @test "remeshing takes little off a part that is thinner than a size" {
   $SURFACES wedge >wedge.off
   tetmesh -q wedge.off --size 25% --points none --stats stats.json -o wedge.mesh
@@ -612,6 +624,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   holds 'stats["volume"] > 0.95 * kept["volume"]' stats.json kept.json
 }
 
+# bats test_tags=both
 @test "a surface is made anew: coarse, fine, of slivers, with its tags, and by the independent checker" {
   for part in bracket.stl plate-holes.stl notch.stl; do
     tetmesh -q "$DATA/$part" --size 5% --points none -o part.mesh --stats stats.json
@@ -636,8 +649,8 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   tetmesh -q "$FILES/fine.stl" --size 0.1 --most-points 2000 -o out.tar
 }
 
+# bats test_tags=optimized
 @test "far more points than --most-points are told before any is placed where sizes differ by place, too" {
-  optimized_only "it is about results"
   $SURFACES sized
   for _ in 1 2 3 4 5 6 7 8; do echo 1e-4; done >fine.txt
   assert_fails_with 1 "^tetmesh: cube.obj: expected sizes that make at most 1e\+06 points inside .* 0.0001 to 2, which make more than 4e\+06" \
@@ -689,6 +702,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   assert_fails_with 2 "layers: Value 2.5 " tetmesh --layers 2.5 part.obj
 }
 
+# bats test_tags=both
 @test "faults that change no shape are mended with one warning, unless --strict refuses them" {
   cp "$DATA/readers/stray-triangle.off" "$DATA/readers/t-junctions.off" .
   $PYTHON - "$FILES/cube.stl" copies.stl <<'END'
@@ -715,6 +729,7 @@ END
   assert_fails_with 2 "repair excludes --strict" tetmesh --strict --repair "$DATA/cube.stl"
 }
 
+# bats test_tags=both
 @test "--repair makes triangles anew where few intersect" {
   run_apart tetmesh "$DATA/readers/folded-sliver.off" --repair --size 0.3 -o folded.mesh
   assert_success
@@ -723,6 +738,7 @@ END
   assert_equal "$(volumes_of folded.mesh | tail -1)" "{1: 1.0}"
 }
 
+# bats test_tags=both
 @test "triangles that intersect are made anew without --repair where they stay near" {
   run_apart tetmesh "$DATA/readers/folded-sliver.off" --size 0.3 -o folded.mesh --stats stats.json
   assert_success
@@ -736,6 +752,7 @@ END
   tetmesh -q deep.off --repair --size 0.3 -o deep.mesh
 }
 
+# bats test_tags=both
 @test "--unite makes one body of bodies that overlap" {
   local boxes="$DATA/readers/overlapping-bodies.off"
   assert_fails_with 1 "overlapping-bodies.off:21: .* found 14 pairs of triangles that do.*\(see --unite\)$" tetmesh "$boxes"
@@ -762,8 +779,8 @@ END
   assert_fails_with 1 "inward.obj:[0-9]+: expected closed bodies that point outward for --unite, found one that points inward" tetmesh inward.obj --unite
 }
 
+# bats test_tags=optimized
 @test "--repair mends what is an error without it, and says so" {
-  optimized_only "it is about results"
   cd "$FILES"
   for file in hole flipped duplicated degenerate inward; do
     run tetmesh --strict $file.stl -o "$BATS_TEST_TMPDIR/out.tar"
@@ -795,6 +812,7 @@ END
   holds 'stats["repair"]["welded_points"] > 0' stats.json
 }
 
+# bats test_tags=both
 @test "points of the user's own, in every format, kept to the last bit" {
   $SURFACES points
   local cube="$FILES/cube.stl"
@@ -824,8 +842,8 @@ END
   assert_equal "$stderr" "tetmesh: warning: near.xyz: TetGen left out 1 of 3 points inside, too near to others"
 }
 
+# bats test_tags=optimized
 @test "best keeps the points of which more is estimated to become hexes" {
-  optimized_only "it is about results"
   local part="$DATA/bracket.stl"
   for points in best frame lattice; do tetmesh -q "$part" --size 8 --points $points -o $points.mesh --stats $points.json; done
   assert_different_bytes frame.mesh lattice.mesh
@@ -839,6 +857,7 @@ END
   done
 }
 
+# bats test_tags=both
 @test "best keeps other points in one body than in another where that is estimated to be the best" {
   # A box turned by half a radian, and a prism of six sides.
   $PYTHON - >two.off <<'PYTHON'
@@ -865,8 +884,8 @@ PYTHON
   grep -q '"mixed"' both.json
 }
 
+# bats test_tags=optimized
 @test "--tries keeps the size of which most is estimated to become hexes" {
-  optimized_only "it is about results"
   local part="$DATA/bracket.stl"
   tetmesh -q "$part" --size 10 -o once.mesh --stats once.json
   tetmesh -q "$part" --size 10 --tries 4 -o tried.mesh --stats tried.json
@@ -888,8 +907,8 @@ PYTHON
   assert [ ! -e out.mesh ]
 }
 
+# bats test_tags=optimized
 @test "--improve finds points that become more hexes" {
-  optimized_only "it is about results"
   local part="$DATA/bracket.stl" threads kind rounds=12
   tetmesh -q "$part" --size 8 -o plain.mesh
   for threads in 1 2; do
@@ -909,8 +928,8 @@ PYTHON
   holds "improved1$share > plain$share + 0.002" plain.json improved1.json
 }
 
+# bats test_tags=optimized
 @test "--improve keeps a kept surface, and every flat face of a new one where it was" {
-  optimized_only "it is about results"
   local rounds=12 kept_rounds=5
   tetmesh -q "$DATA/notch.stl" --surface keep --size 0.1 -o before.mesh
   tetmesh -q "$DATA/notch.stl" --surface keep --size 0.1 --improve $kept_rounds -o kept.mesh --stats stats.json
@@ -921,8 +940,8 @@ PYTHON
   $CONTENTS same_shape plain.mesh improved.mesh
 }
 
+# bats test_tags=optimized
 @test "--improve gives up a run of TetGen that does not end" {
-  optimized_only "it is about times"
   tetmesh -q "$DATA/endless.off" --size 16% --surface keep --points lattice --improve 8 -o improved.mesh --stats stats.json
   holds 'stats["improved"]["rounds"] == 8' stats.json
   # Less: no run went on for ever. One seed in twelve meets one.
@@ -937,8 +956,8 @@ PYTHON
   refute grep -q larger <<<"$stderr"
 }
 
+# bats test_tags=optimized
 @test "--improve ends by --time-limit or a signal with the best mesh so far" {
-  optimized_only "it is about times"
   local part="$DATA/bracket.stl"
   tetmesh -q "$part" --size 8 -o plain.mesh
   tetmesh -q "$part" --size 8 --improve 1000000 --time-limit 0 -o at_once.mesh
@@ -963,8 +982,8 @@ PYTHON
   assert [ ! -e none.mesh ]
 }
 
+# bats test_tags=optimized
 @test "--size-field: edges are as long as it says, in every format" {
-  optimized_only "it is about results"
   $SURFACES sized
   local ratio
   for points in lattice frame; do
@@ -986,8 +1005,8 @@ PYTHON
   assert_conforming out.mesh
 }
 
+# bats test_tags=optimized
 @test "--grading says how fast sizes change, --size how large they get" {
-  optimized_only "it is about results"
   $SURFACES sized
   local more=100000 points
   for grading in 0.1 0.3 1; do
@@ -1013,6 +1032,7 @@ PYTHON
   assert_fails_with 1 "at most 1000 points inside" tetmesh cube.obj --size-field fine.txt --size 1 --surface keep --points lattice --most-points 1000
 }
 
+# bats test_tags=both
 @test "--layers gives a thin wall as many elements across" {
   $SURFACES box 6 4.9 1 >plate.obj
   # Levels of points, in steps of a tenth. TetGen puts points of its own into some walls of one layer
@@ -1029,8 +1049,8 @@ PYTHON
   assert_fails_with 2 "layers" tetmesh plate.obj --layers 0
 }
 
+# bats test_tags=optimized
 @test "a part out of the axes gets the hexes of one along them" {
-  optimized_only "it is about results"
   $SURFACES turned "$DATA/bracket.stl" 1 >turned.obj
   for part in "$DATA/bracket.stl" turned.obj; do
     tetmesh -q "$part" --surface keep --size 5 -o out.tar --stats $(basename "${part%.*}").json
@@ -1059,8 +1079,8 @@ PYTHON
   grep -Eq "^tetmesh: [0-9]+ points \([0-9]+ of the surface, 64 inside\), [0-9]+ tets, volume 1, size 0.2" <<<"$stderr"
 }
 
+# bats test_tags=optimized
 @test "shells: apart, holes by orientation, regions in regions, and the rules" {
-  optimized_only "it is about results"
   tetmesh -q "$FILES/apart.stl" -o out.tar
   assert_equal "$(regions out.tar)" "1:1 2:8"
   tetmesh -q "$FILES/hollow.stl" -o out.tar
@@ -1108,8 +1128,8 @@ assert not any('second' in key for key in entry), entry"
   assert [ ! -e out.tar ]
 }
 
+# bats test_tags=optimized
 @test "--curvature makes elements small where the surface bends, down to --least-size" {
-  optimized_only "it is about results"
   points() { tetmesh -q "$DATA/bracket.stl" --size 8 "$@" --stats stats.json -o curved.mesh && $PYTHON -c 'import json; s = json.load(open("stats.json")); print(s["points"], s.get("least_size"))'; }
   read -r plain least <<<"$(points)"
   assert_equal "$least" None
@@ -1126,6 +1146,7 @@ assert not any('second' in key for key in entry), entry"
   assert_same_bytes curved.mesh plain.mesh
 }
 
+# bats test_tags=both
 @test "--scale multiplies the coordinates" {
   tetmesh "$DATA/cube.stl" --surface keep --points none -o cube.mesh
   tetmesh "$DATA/cube.stl" --surface keep --points none --scale 0.5 -o half.mesh

@@ -1,4 +1,5 @@
 # docs/tutorial.md: its commands work, and print what the page shows.
+# bats file_tags=optimized
 
 load helpers
 
@@ -7,7 +8,6 @@ run_page() {
 }
 
 @test "the commands of the tutorial work and print what the page shows, numbers aside" {
-  if sanitized; then skip "other tests run these tools; here it would take minutes"; fi
   $PYTHON -c "import getfem, meshio" 2>/dev/null || skip "python3-getfem is not installed"
   run run_page "$HEXPIPE_SOURCE/docs/tutorial.md" "$PWD"
   assert_success

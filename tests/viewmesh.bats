@@ -134,8 +134,8 @@ PYTHON
   assert_same_bytes one.png two.png
 }
 
+# bats test_tags=optimized
 @test "every part of --view changes the picture, and the page opens with it" {
-  optimized_only "it is about results"
   viewmesh result.vtu --size 400,250 --png plain.png
   for part in up=y up=-x axes=off legend=off clip=x:0.5 clip=-x:0.5 clip=1,1,0:0.5 quality=0,0.15 peel=1 kinds=hex,tet colour=quality colour=kind \
     colour=region colour=surface colour=orthogonality colour=weight colour=determinant colour=flatness edges=off theme=dark camera=10,20 camera=10,20,1,0,0,0 camera=-52,28,2,0,0,0 camera=-52,28,1,0.3,0,0; do
@@ -167,8 +167,8 @@ with tarfile.open("result.tar") as old, tarfile.open("more.tar", "w", format=tar
 PYTHON
 }
 
+# bats test_tags=optimized
 @test "dislocations of a bundle are in the page, and in pictures where asked for" {
-  optimized_only "it is about pictures"
   add_member mesh/dislocations.npy "np.array([[0, 0, 0, .5, .5, .5], [.5, .5, .5, 1, 1, 0]])"
   viewmesh more.tar -o page.html --png without.png
   assert_equal "$(scene page.html dislocations | "$PYTHON" -c 'import json, sys; print(sorted(json.load(sys.stdin)))')" "['lengths', 'points', 'sizes']"
@@ -185,8 +185,8 @@ PYTHON
   assert [ ! -e no.html ]
 }
 
+# bats test_tags=optimized
 @test "the title is the file's name where none is given" {
-  optimized_only "it is about the texts"
   viewmesh result.vtu -o page.html
   assert_equal "$(scene page.html title)" '"result.vtu"'
   viewmesh --mesh mesh.mesh -o page.html
@@ -237,8 +237,8 @@ PYTHON
   assert_success
 }
 
+# bats test_tags=optimized
 @test "wrong words in --view end with 2" {
-  optimized_only "it is about the texts"
   while read -r state; do
     assert_fails_with 2 "--view: " viewmesh result.vtu --view "$state" -o no.html
   done <"$DATA/wrong_views.txt"
@@ -334,8 +334,8 @@ PYTHON
   grep -q "standard output is a terminal" message
 }
 
+# bats test_tags=optimized
 @test "at a terminal a line tells how far it is; -q shows none" {
-  if sanitized; then skip "the lines are the same there"; fi
   "$PYTHON" "$DATA/bar.py" --kuhn --length 4000 >long.tar
   TERM=xterm script -qec "viewmesh long.tar --png long.png -o long.html" /dev/null </dev/null | tr '\r' '\n' | sed 's/\x1b\[K//g' >shown
   grep -Eq '^viewmesh: [0-9]+ %, .*(reading|measuring cells|drawing|drawing the picture|writing the page)$' shown
@@ -354,8 +354,8 @@ PYTHON
   assert_success
 }
 
+# bats test_tags=optimized
 @test "the page works in a browser, as a file" {
-  optimized_only "it is about the script of the page"
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 5 --tags-by-angle 40 | findhex | buildgraph | initsol --iterations 20000 |
     certify --iterations 20 -o chosen.tar
@@ -370,8 +370,8 @@ PYTHON
   assert [ "$(ls screenshots | wc -l)" -ge 15 ]
 }
 
+# bats test_tags=optimized
 @test "the page finds poor cells and dislocations, measures, and lets the part fit" {
-  optimized_only "it is about the script of the page"
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
   tetmesh "$DATA/bracket.stl" --size 7 | findhex | buildgraph | initsol --iterations 20000 | assemble -o bracket.msh
   tetmesh "$DATA/plate-holes.stl" --size 11 --points frame | findhex | buildgraph | initsol --iterations 20000 | assemble -o plate.tar

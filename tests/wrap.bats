@@ -1,4 +1,5 @@
 # wrap: a closed surface around triangles of any kind.
+# bats file_tags=both
 
 load helpers
 
@@ -48,14 +49,14 @@ for i in range(len(triangles)):
 PYTHON
 }
 
+# bats test_tags=optimized
 @test "a cube comes back with its corners and edges" {
-  optimized_only "it is about results"
   cubes whole | wrap --gap 8% -o cube.stl
   assert_equal "$(facts cube.stl)" "True 1.0 0.0 0.0 0.0 1.0 1.0 1.0"
 }
 
+# bats test_tags=optimized
 @test "triangles turned any way are wrapped alike" {
-  optimized_only "it is about results"
   cubes turned | wrap --gap 8% -o cube.stl
   assert_equal "$(facts cube.stl)" "True 1.0 0.0 0.0 0.0 1.0 1.0 1.0"
 }
@@ -74,8 +75,8 @@ PYTHON
   assert_equal "$(facts inner.stl)" "True 1.0 0.0 0.0 0.0 1.0 1.0 1.0"
 }
 
+# bats test_tags=optimized
 @test "a hole wider than the gap is an error that says what to do, one that is narrower closes" {
-  optimized_only "it is about results"
   cubes open >open.off
   assert_fails_with 1 "^wrap: open.off: expected a surface that encloses a room .*; its widest hole, 3 edges around \(0.666667, 0.333333, 1\), is about 0.586 wide; close wider holes by a larger --gap" \
     wrap open.off --gap 4% -o no.stl
@@ -89,8 +90,8 @@ PYTHON
   assert_fails_with 1 "^wrap: sheet.off: expected a surface that encloses a room .* only a shell" wrap sheet.off -o no.stl
 }
 
+# bats test_tags=optimized
 @test "a fin goes and is told, so that tetmesh can fill the rest" {
-  optimized_only "it is about results"
   run wrap "$DATA/touching/fin-on-edge.off" --gap 6% -o body.stl
   assert_success
   assert_output --regexp "^wrap: warning: .*fin-on-edge.off: 1 triangle\(s\), 16 % of the input's area, have the outside on both sides and are left out"
@@ -119,8 +120,8 @@ PYTHON
   "$PYTHON" -c "import json; v = json.load(open('tets.json'))['volume']; assert abs(v - 1.875) < 0.02, v"
 }
 
+# bats test_tags=optimized
 @test "--feature-angle and --no-features change the result, and so does the gap" {
-  optimized_only "it is about results"
   cubes overlapping >two.off
   wrap -q two.off --gap 8% -o sharp.stl
   wrap -q two.off --gap 8% --no-features -o round.stl
