@@ -24,10 +24,12 @@ def read_metis(path):
     require(len(header) == 3 and header[2] == "10", f"expected a header 'n m 10', found {lines[0]!r}")
     count, edges = int(header[0]), int(header[1])
     require(len(lines) == count + 1, f"expected {count} vertex lines, found {len(lines) - 1}")
-    rows = [np.array(line.split(), dtype=np.int64) for line in lines[1:]]
-    require(all(len(row) >= 1 for row in rows), "a vertex without a weight")
-    weights = [int(row[0]) for row in rows]
-    lists = [row[1:] - 1 for row in rows]
+    rows = [list(map(int, line.split())) for line in lines[1:]]
+    require(all(rows), "a vertex without a weight")
+    weights = [row[0] for row in rows]
+    heads = np.array([head for row in rows for head in row[1:]], dtype=np.int64) - 1
+    ends = np.cumsum([0] + [len(row) - 1 for row in rows])
+    lists = [heads[a:b] for a, b in zip(ends[:-1], ends[1:])]
     require(sum(map(len, lists)) == 2 * edges, f"expected {2 * edges} neighbours by the header")
     return weights, lists
 
@@ -51,15 +53,24 @@ def read_graph(path):
     return read_bundle(path) if tarfile.is_tarfile(path) else read_metis(path)
 
 
+def edge_ends(lists):
+    """Tails and heads of all edges, in both directions."""
+    tails = np.repeat(np.arange(len(lists)), [len(n) for n in lists])
+    return tails, np.concatenate(lists) if lists else np.zeros(0, np.int64)
+
+
 def check(weights, lists):
     count = len(weights)
     require(all(w >= 0 for w in weights) and sum(weights) < 2**63, "weights negative or too large in sum")
-    for v, neighbours in enumerate(lists):
-        require((neighbours >= 0).all() and (neighbours < count).all(), f"vertex {v} has neighbours out of range")
-        require((np.diff(neighbours) > 0).all(), f"the neighbours of vertex {v} do not ascend")
-        require((neighbours != v).all(), f"vertex {v} is beside itself")
-    tails = np.repeat(np.arange(count), [len(n) for n in lists])
-    heads = np.concatenate(lists) if count else np.zeros(0, np.int64)
+    tails, heads = edge_ends(lists)
+
+    def require_none(wrong, message):
+        if wrong.any():
+            raise ValueError(f"vertex {tails[np.argmax(wrong)]} {message}")
+
+    require_none((heads < 0) | (heads >= count), "has neighbours out of range")
+    require_none(heads == tails, "is beside itself")
+    require_none((np.diff(tails) == 0) & (np.diff(heads) <= 0), "has neighbours that do not ascend")
     there = np.sort(tails * count + heads)
     back = np.sort(heads * count + tails)
     require((there == back).all(), "an edge stands at one of its ends only")

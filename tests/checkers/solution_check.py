@@ -14,7 +14,7 @@ import tarfile
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from graph_check import check, read_graph, require  # noqa: E402
+from graph_check import check, edge_ends, read_graph, require  # noqa: E402
 
 
 def read_solution(path):
@@ -45,10 +45,12 @@ def main(arguments):
         require(all(a < b for a, b in zip(chosen, chosen[1:])), "vertices do not ascend")
         inside = np.zeros(len(weights), bool)
         inside[chosen] = True
-        for v, neighbours in enumerate(lists):
-            touched = inside[neighbours].any()
-            require(not (inside[v] and touched), f"vertex {v} and a neighbour are both chosen")
-            require(inside[v] or touched, f"vertex {v} could be chosen too")
+        tails, heads = edge_ends(lists)
+        touched = np.zeros(len(weights), bool)
+        touched[tails[inside[heads]]] = True
+        for v in np.flatnonzero(inside == touched):
+            require(not inside[v], f"vertex {v} and a neighbour are both chosen")
+            require(inside[v], f"vertex {v} could be chosen too")
     except (ValueError, IndexError, KeyError, OSError, tarfile.TarError) as error:
         print(f"{paths[-1]}: {error}")
         return 1

@@ -9,19 +9,16 @@ import argparse
 import itertools
 
 import numpy as np
-from scipy.spatial import Delaunay
 
 WIDTH = 3
 
 
 def kuhn_tets(shape):
-    number = lambda p: (p[0] * shape[1] + p[1]) * shape[2] + p[2]
-    for cube in itertools.product(*(range(n - 1) for n in shape)):
-        for order in itertools.permutations(range(3)):
-            corners = [np.array(cube)]
-            for axis in order:
-                corners.append(corners[-1] + np.eye(3, dtype=int)[axis])
-            yield [number(p) for p in corners]
+    strides = np.array([shape[1] * shape[2], shape[2], 1])
+    cubes = np.array(list(itertools.product(*(range(n - 1) for n in shape))))
+    # From a corner to the opposite one, along the axes in every order.
+    paths = np.array([np.cumsum([0, *strides[list(order)]]) for order in itertools.permutations(range(3))])
+    return (cubes @ strides)[:, None, None] + paths
 
 
 def bar(options):
@@ -29,8 +26,9 @@ def bar(options):
     shape = (options.length + 1, WIDTH + 1, WIDTH + 1)
     points = np.array(list(itertools.product(*(range(n) for n in shape))), dtype=float)
     if options.kuhn:
-        tets = np.array(list(kuhn_tets(shape)))
+        tets = kuhn_tets(shape).reshape(-1, 4)
     else:
+        from scipy.spatial import Delaunay
         inside = (points > 0) & (points < np.array(shape) - 1)
         points += inside * random.uniform(-0.25, 0.25, points.shape)
         tets = Delaunay(points).simplices
@@ -69,11 +67,11 @@ def main():
     regions = middle.astype(int) + 1 if options.regions else np.zeros(len(tets), int)
     triangles = list(triangles_of(points, tets, regions)) if options.regions else []
     print("MeshVersionFormatted 2\nDimension 3\nVertices", len(points), sep="\n")
-    for p in points:
-        print(*(round(x, 6) for x in p), 0)
+    for x, y, z in points.round(6).tolist():
+        print(x, y, z, 0)
     print("Tetrahedra", len(tets), sep="\n")
-    for tet, region in zip(tets, regions):
-        print(*(tet + 1), region)
+    for (a, b, c, d), region in zip((tets + 1).tolist(), regions.tolist()):
+        print(a, b, c, d, region)
     if triangles:
         print("Triangles", len(triangles), sep="\n")
     for facet, tag in triangles:
