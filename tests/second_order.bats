@@ -2,10 +2,17 @@
 
 load helpers
 
-# choice [SIZE]: choice.tar, up to a solution, of a quarter of a ring whose surface is ring.stl. Its volume is 1.17810.
-choice() {
+# For all tests, up to a solution: a quarter of a ring. Its volume is 1.17810.
+setup_file() {
+  load helpers
+  cd "$BATS_FILE_TMPDIR"
   "$DATA/ring.py" >ring.stl
-  tetmesh ring.stl --size "${1:-0.3}" -q | findhex | buildgraph | initsol --iterations 20000 -o choice.tar
+  tetmesh ring.stl --size 0.3 -q | findhex | buildgraph | initsol --iterations 20000 -o choice.tar
+}
+
+# choice: choice.tar and its surface, ring.stl.
+choice() {
+  ln -s "$BATS_FILE_TMPDIR"/{choice.tar,ring.stl} .
 }
 
 # cells FILE: what another program reads, in cells.txt.

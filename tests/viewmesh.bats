@@ -170,12 +170,12 @@ PYTHON
 # bats test_tags=optimized
 @test "dislocations of a bundle are in the page, and in pictures where asked for" {
   add_member mesh/dislocations.npy "np.array([[0, 0, 0, .5, .5, .5], [.5, .5, .5, 1, 1, 0]])"
-  viewmesh more.tar -o page.html --png without.png
+  viewmesh more.tar -o page.html --size 400,250 --png without.png
   assert_equal "$(scene page.html dislocations | "$PYTHON" -c 'import json, sys; print(sorted(json.load(sys.stdin)))')" "['lengths', 'points', 'sizes']"
-  viewmesh more.tar --png with.png --view dislocations=on
+  viewmesh more.tar --size 400,250 --png with.png --view dislocations=on
   assert_different_bytes without.png with.png
   # They come with the mesh alone, too.
-  viewmesh --mesh more.tar --png mesh.png --view dislocations=on -o mesh.html
+  viewmesh --mesh more.tar --size 400,250 --png mesh.png --view dislocations=on -o mesh.html
   lengths() { scene "$1" dislocations | "$PYTHON" -c 'import json, sys; print(json.load(sys.stdin)["lengths"])'; }
   assert_equal "$(lengths mesh.html)" "$(lengths page.html)"
   add_member mesh/dislocations.npy "np.array([[0, 0, 0, .5, .5, np.nan]])"
@@ -194,8 +194,8 @@ PYTHON
   viewmesh <result.tar -o page.html
   assert_equal "$(scene page.html title)" '"hexpipe result"'
   # It stands in the legend, too.
-  viewmesh result.vtu --png one.png
-  viewmesh result.vtu --title other --png two.png
+  viewmesh result.vtu --size 400,250 --png one.png
+  viewmesh result.vtu --size 400,250 --title other --png two.png
   assert_different_bytes one.png two.png
 }
 
@@ -209,8 +209,8 @@ PYTHON
     assert_different_bytes whole.png part.png
   done
   # A name and its number are the same group; a page has the number.
-  viewmesh "$DATA/two_hexes.msh" --png name.png --view 'hidden=region:steel,surface:inlet' -o page.html
-  viewmesh "$DATA/two_hexes.msh" --png number.png --view 'hidden=region:1,surface:3'
+  viewmesh "$DATA/two_hexes.msh" --size 320,200 --png name.png --view 'hidden=region:steel,surface:inlet' -o page.html
+  viewmesh "$DATA/two_hexes.msh" --size 320,200 --png number.png --view 'hidden=region:1,surface:3'
   assert_same_bytes name.png number.png
   run scene page.html state
   assert_output --partial "hidden=region:1,surface:3&"
@@ -327,7 +327,7 @@ PYTHON
 
 @test "outputs that cannot be written, and terminals" {
   assert_fails_with 1 "^viewmesh: /dev/full: cannot write" viewmesh result.vtu -o /dev/full
-  assert_fails_with 1 "^viewmesh: /dev/full: cannot write" viewmesh result.vtu --png /dev/full
+  assert_fails_with 1 "^viewmesh: /dev/full: cannot write" viewmesh result.vtu --size 320,200 --png /dev/full
   assert_fails_with 1 "^viewmesh: nowhere/x.png: cannot write" viewmesh result.vtu --png nowhere/x.png
   run script -qec "viewmesh result.vtu 2>message" /dev/null </dev/null
   assert_equal "$status" 2
