@@ -92,6 +92,24 @@ PYTHON
 }
 
 # thin NAME INNER: NAME.step, a cylinder of the radius 10 with a cylinder of the radius INNER as a hole in it.
+# Where two edges of a face run into a tip, their polygons cross within the tolerance of the edges.
+@test "gaps that OpenCASCADE leaves at tips of faces are closed" {
+  # By OpenCASCADE's own integration over the CAD's faces.
+  local -A volumes=([tip]=28.7984 [sphere-tip]=31.1413)
+  local part
+  for part in tip sphere-tip; do
+    run_apart tessellate "$DATA/$part.step" -o "$part.tar" --stats "$part.json"
+    assert_success
+    assert_equal "$stderr" ""
+    assert_equal "$(surface "$part.tar" 'open_edges()')" 0
+    run surface "$part.tar" "abs(volume() / ${volumes[$part]} - 1) < 1e-3"
+    assert_output True
+    run $PYTHON -c 'import json, sys; stats = json.load(open(sys.argv[1])); print(stats["crossings"], stats["joined_nodes"] > 0)' "$part.json"
+    assert_output "0 True"
+    if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then tetmesh -q "$part.tar" --size 0.5 -o mesh.tar; fi
+  done
+}
+
 thin() {
   cat >"$1.geo" <<END
 SetFactory("OpenCASCADE");

@@ -66,6 +66,8 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
     result.curves = made.curves;
     result.deviation = made.deviation / unit.millimetres;
     result.crossings = made.made_anew.crossings;
+    result.gap_triangles = made.gap_triangles;
+    result.joined_nodes = made.joined_nodes;
     if (result.crossings > 0) model.warnings.push_back(text_about(made.made_anew, result.deviation));
   } catch (const Standard_Failure& failure) {
     throw DataError::at(input.name(), "OpenCASCADE failed: {}", message_of(failure));
@@ -89,6 +91,8 @@ nlohmann::ordered_json to_json(const TessellateResult& result) {
                               {"points", result.surface.points.size()},
                               {"triangles", result.surface.triangles.size()},
                               {"crossings", result.crossings},
+                              {"gap_triangles", result.gap_triangles},
+                              {"joined_nodes", result.joined_nodes},
                               {"names", result.surface.names.surfaces.size()}};
   if (!result.unit.empty()) json["unit"] = result.unit;
   return json;

@@ -38,6 +38,7 @@
 #include "common/mesh/joined_sets.hpp"
 #include "common/run/error.hpp"
 #include "tools/tessellate/crossings.hpp"
+#include "tools/tessellate/face_gaps.hpp"
 
 namespace hexpipe::tessellate {
 namespace {
@@ -67,6 +68,20 @@ TopoDS_Compound compound_of(const CadModel& model) {
   builder.MakeCompound(whole);
   for (const CadBody& body : model.bodies) builder.Add(whole, body.solid);
   return whole;
+}
+
+// Calls visit(edge) for each edge that bounds the face, turned so that the face's surface is on its left.
+template <class Visit>
+void for_edges_around(const TopoDS_Face& face, Visit&& visit) {
+  for (TopExp_Explorer part(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); part.More(); part.Next()) {
+    const TopAbs_Orientation turn = part.Current().Orientation();
+    if (turn == TopAbs_FORWARD || turn == TopAbs_REVERSED) visit(TopoDS::Edge(part.Current()));
+  }
+}
+
+// A step between nodes that are given in the edge's own order.
+NodeEdge along(const TopoDS_Edge& edge, std::int32_t from, std::int32_t to) {
+  return edge.Orientation() == TopAbs_FORWARD ? NodeEdge(from, to) : NodeEdge(to, from);
 }
 
 double radians(double degrees) {
@@ -104,6 +119,7 @@ class Triangulator {
     number_faces();
     choose_tags();
     for (std::size_t body = 0; body < model_.bodies.size(); ++body) add_body(body);
+    close_tips();
     add_curves();
     number_points();
     check_closed();
@@ -116,21 +132,20 @@ class Triangulator {
   }
 
  private:
-  // The nodes of a face that has been triangulated.
-  struct FaceNodes {
-    std::int32_t first = 0;  // number of its first node
-    std::vector<std::size_t> triangles;
-  };
-
   void number_faces();
   void choose_tags();
   bool is_smooth(const TopoDS_Edge& edge, const TopTools_ListOfShape& faces) const;
   std::string group_of(const TopoDS_Shape& face) const { return model_.names.of(face); }
   void add_body(std::size_t body);
   void add_face(const TopoDS_Face& face, std::int32_t region);
+  void add_empty_face(const TopoDS_Face& face, std::int32_t region);
+  void add_triangles(const TopoDS_Face& face, const std::vector<NodeEdge>& border, std::vector<Triangle> triangles,
+                     bool is_mirrored, std::int32_t region);
+  [[noreturn]] void fail_at(const TopoDS_Face& face, std::int32_t region) const;
   void add_nodes(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles, const TopLoc_Location& place,
                  std::int32_t first);
   void join_edge(const TopoDS_Edge& edge, const Handle(Poly_PolygonOnTriangulation) & polygon, std::int32_t first);
+  void close_tips();
   void add_curves();
   void number_points();
   void drop_curves_without_triangles(const std::vector<Vertex>& number);
@@ -146,8 +161,10 @@ class Triangulator {
   const TopoDS_Compound& whole_;
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edge_;
   TopTools_IndexedMapOfShape faces_;
-  std::vector<std::int32_t> tags_;  // of faces
-  std::map<int, FaceNodes> done_;   // by number of the face
+  std::vector<std::int32_t> tags_;                // of faces
+  std::map<int, std::vector<std::size_t>> done_;  // triangles, by number of the face
+  std::vector<TopoDS_Face> empty_faces_;          // of the current body
+  std::vector<NodeEdge> tips_;                    // nodes that become one (face_gaps.hpp)
   std::vector<Vec3> nodes_;
   JoinedSets same_;
   std::map<int, std::vector<std::int32_t>> nodes_of_edge_;  // by number of the edge
@@ -202,6 +219,7 @@ void Triangulator::add_body(std::size_t body) {
   const std::size_t first = result_.surface.triangles.size();
   for (TopExp_Explorer face(model_.bodies[body].solid, TopAbs_FACE); face.More(); face.Next())
     add_face(TopoDS::Face(face.Current()), region);
+  for (const TopoDS_Face& face : std::exchange(empty_faces_, {})) add_empty_face(face, region);
   // A solid's faces may point inward. A solid that shares faces with another one has the right orientation.
   double volume = 0;
   bool is_alone = true;
@@ -225,7 +243,7 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
     // go, or stay as a baffle.
     const std::array<std::int32_t, 2> of_wall =
         options_.keep_baffles ? std::array{region, region} : std::array<std::int32_t, 2>{0, 0};
-    for (const std::size_t t : found->second.triangles) {
+    for (const std::size_t t : found->second) {
       auto& sides = result_.surface.sides[t];
       sides = sides[0] == region ? of_wall : std::array<std::int32_t, 2>{sides[0], region};
     }
@@ -233,22 +251,71 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
   }
   TopLoc_Location place;
   const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
-  if (triangles.IsNull() || triangles->NbTriangles() == 0)
-    throw DataError::at(source_, "{} of body {}: OpenCASCADE cannot make triangles of it", title_of(face), region);
-  FaceNodes& nodes = done_[number];
-  nodes.first = static_cast<std::int32_t>(nodes_.size());
-  add_nodes(face, triangles, place, nodes.first);
-  const bool turned = (face.Orientation() == TopAbs_REVERSED) != place.Transformation().IsNegative();
+  if (triangles.IsNull() || triangles->NbTriangles() == 0) return empty_faces_.push_back(face);
+  const auto first = static_cast<std::int32_t>(nodes_.size());
+  const auto numbered = [&](Standard_Integer node) { return first + node - 1; };
+  add_nodes(face, triangles, place, first);
+  std::vector<Triangle> made;
   for (Standard_Integer i = 1; i <= triangles->NbTriangles(); ++i) {
     Standard_Integer a = 0, b = 0, c = 0;
     triangles->Triangle(i).Get(a, b, c);
+    made.push_back({numbered(a), numbered(b), numbered(c)});
+  }
+  std::vector<NodeEdge> border;
+  for_edges_around(face, [&](const TopoDS_Edge& edge) {
+    const auto polygon = BRep_Tool::PolygonOnTriangulation(edge, triangles, place);
+    if (polygon.IsNull()) return;
+    for (Standard_Integer i = 1; i < polygon->NbNodes(); ++i)
+      border.push_back(along(edge, numbered(polygon->Node(i)), numbered(polygon->Node(i + 1))));
+  });
+  add_triangles(face, border, std::move(made), place.Transformation().IsNegative(), region);
+}
+
+// A face of which OpenCASCADE has made no triangles gets some between the nodes of its neighbours.
+void Triangulator::add_empty_face(const TopoDS_Face& face, std::int32_t region) {
+  std::vector<NodeEdge> border;
+  for_edges_around(face, [&](const TopoDS_Edge& edge) {
+    if (BRep_Tool::Degenerated(edge)) return;
+    const auto known = nodes_of_edge_.find(faces_of_edge_.FindIndex(edge));
+    if (known == nodes_of_edge_.end()) fail_at(face, region);
+    const std::vector<std::int32_t>& nodes = known->second;
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+      border.push_back(along(edge, same_.of(nodes[i - 1]), same_.of(nodes[i])));
+  });
+  add_triangles(face, border, {}, face.Location().Transformation().IsNegative(), region);
+}
+
+// With those that are missing. They are turned as the face's surface is.
+void Triangulator::add_triangles(const TopoDS_Face& face, const std::vector<NodeEdge>& border,
+                                 std::vector<Triangle> triangles, bool is_mirrored, std::int32_t region) {
+  const FilledGaps gaps = fill_gaps(face, border, triangles, nodes_, result_.deviation);
+  if (!gaps.are_closed && triangles.empty()) fail_at(face, region);
+  if (!gaps.are_closed)
+    throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g})", region,
+                        title_of(face), gaps.place.x, gaps.place.y, gaps.place.z);
+  for (const Vec3& p : gaps.nodes) {
+    nodes_.push_back(p);
+    same_.add();
+  }
+  tips_.insert(tips_.end(), gaps.joins.begin(), gaps.joins.end());
+  triangles.insert(triangles.end(), gaps.triangles.begin(), gaps.triangles.end());
+  result_.gap_triangles += gaps.triangles.size();
+  result_.joined_nodes += gaps.joins.size();
+  const int number = faces_.FindIndex(face);
+  const bool turned = (face.Orientation() == TopAbs_REVERSED) != is_mirrored;
+  const bool is_inside = face.Orientation() == TopAbs_INTERNAL;
+  for (auto [a, b, c] : triangles) {
     if (turned) std::swap(b, c);
-    nodes.triangles.push_back(result_.surface.triangles.size());
-    result_.surface.triangles.push_back({nodes.first + a - 1, nodes.first + b - 1, nodes.first + c - 1});
+    done_[number].push_back(result_.surface.triangles.size());
+    result_.surface.triangles.push_back({a, b, c});
     result_.surface.tags.push_back(tags_[number - 1]);
     result_.surface.sides.push_back({region, is_inside ? region : 0});
     face_of_triangle_.push_back(number);
   }
+}
+
+void Triangulator::fail_at(const TopoDS_Face& face, std::int32_t region) const {
+  throw DataError::at(source_, "{} of body {}: OpenCASCADE cannot make triangles of it", title_of(face), region);
 }
 
 void Triangulator::add_nodes(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles,
@@ -297,6 +364,15 @@ void Triangulator::join_edge(const TopoDS_Edge& edge, const Handle(Poly_PolygonO
     throw DataError::at(source_, "edge {}: OpenCASCADE's triangles do not agree along it",
                         faces_of_edge_.FindIndex(edge));
   for (std::size_t i = 0; i < nodes.size(); ++i) same_.join(known[i], nodes[i]);
+}
+
+// When all faces have joined their nodes: the first of two goes where the second one is.
+void Triangulator::close_tips() {
+  for (const auto& [from, into] : tips_) {
+    const Vec3 at = nodes_[same_.of(into)];
+    same_.join(into, from);
+    nodes_[same_.of(into)] = at;
+  }
 }
 
 void Triangulator::add_curves() {

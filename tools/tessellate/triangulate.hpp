@@ -28,6 +28,7 @@ struct Triangulation {
   pipeline::ExactShape shape;    // what it was made of
   std::size_t faces = 0, curves = 0;
   double deviation = 0;
+  std::size_t gap_triangles = 0, joined_nodes = 0;  // where OpenCASCADE's triangles left gaps (face_gaps.hpp)
   MadeAnew made_anew;
 };
 
@@ -36,7 +37,7 @@ double default_size_of(const CadModel& model);
 
 // Where triangles of one body cross each other, those of their faces are made anew, finer; then all are, or, unless a
 // deviation is asked for, those of these faces coarser. If that does not help, the first triangles stay.
-// Throws DataError if a face cannot be triangulated, or its triangles leave a gap.
+// Throws DataError if a face cannot be triangulated, or its triangles leave a gap that cannot be closed.
 Triangulation triangulate(const CadModel& model, const TriangulationOptions& options, const std::string& source);
 
 }  // namespace hexpipe::tessellate
