@@ -44,6 +44,16 @@ weight_of() {
   "$CHECKERS/solution_check.py" ring.graph "$1" | sed 's/.*weight //'
 }
 
+@test "the first of several ranks tells the version and the help for all" {
+  run --separate-stderr mpirun --oversubscribe -n 2 lns-mpi --version
+  assert_success
+  assert_line --index 0 --regexp '^lns-mpi \(hexpipe\) '
+  assert_equal "${#lines[@]} $stderr" "2 "
+  run mpirun --oversubscribe -n 2 lns-mpi --help
+  assert_success
+  assert_equal "$(grep -c '^Usage: ' <<<"$output")" 1
+}
+
 # bats test_tags=optimized
 @test "the result is independent and heavier, and the same on 1, 2 and 4 ranks" {
   for ranks in 1 2 4; do on $ranks --iterations 200 --no-reductions --round 20 -o $ranks.sol; done

@@ -2,11 +2,12 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <iostream>
+#include <optional>
 
 #include "common/mwis/lns_options.hpp"
 #include "common/run/memory.hpp"
 #include "common/run/messages.hpp"
+#include "common/run/muted_cout.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
 #include "tools/lns-mpi/job.hpp"
@@ -112,9 +113,10 @@ int main(int argc, char** argv) {
     run_on_all_ranks(context, options);
   };
   const bool is_silent = launched_rank().value_or(0) > 0;
+  std::optional<MutedCout> muted;
   if (is_silent) {
     silence_messages(true);
-    std::cout.setstate(std::ios::failbit);
+    muted.emplace();
   }
   // mpirun passes this signal on to its processes; after SIGTERM, it ends them within a second.
   stop_searches_also_on(SIGUSR1);
