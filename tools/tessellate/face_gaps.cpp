@@ -26,6 +26,8 @@ constexpr std::size_t most_new_nodes = 5000;
 // Among triangles of one area in all, those in better shape: the cost of a triangle whose edges' squares are so many
 // times its area. Corners in one line have no area at all.
 constexpr double price_of_shape = 1e-6, worst_shape = 1e6;
+// Faulty files have tolerances as large as faces: what they allow is bounded by so many deviations.
+constexpr double most_tolerance = 4;
 // Edges that begin at a wider angle form no tip.
 constexpr double least_cosine_of_tip = 0.8;
 
@@ -232,7 +234,7 @@ class GapFiller {
       : surface_(BRep_Tool::Surface(face)),
         given_(nodes.size()),
         nodes_(nodes),
-        tolerance_(tolerance_of_edges(face)),
+        tolerance_(std::min(tolerance_of_edges(face), most_tolerance * deviation)),
         reach_(deviation + tolerance_) {}
 
   // False if no triangles near the face close the loop.
