@@ -54,9 +54,9 @@ struct Fineness {
 constexpr double small_angle = 5;
 
 // What is tried where triangles cross. BRepMesh keeps the triangles of a face, and its points on edges, unless they
-// were taken away or are less fine than the deviation asks for. So a smaller angle, as a greater deviation, concerns
-// these faces alone, and a smaller deviation all. On HexMe's i27 the first helps, on splines of I-DEAS with many knots
-// the second or the third.
+// were taken away or are less fine than the deviation asks for. So a smaller angle concerns these faces alone, a
+// greater deviation also those beside them, whose points on edges would stay, and a smaller deviation all. On HexMe's
+// i27 the first helps, on splines of I-DEAS with many knots the second or the third.
 constexpr std::array fineness_where_crossing{Fineness{true, 1}, Fineness{false, 0.5}, Fineness{false, 2},
                                              Fineness{false, 4}, Fineness{true, 0.25}};
 // So large a model is not made finer.
@@ -148,6 +148,7 @@ class Triangulator {
   void close_tips();
   void add_curves();
   void number_points();
+  std::vector<bool> flat_pairs();
   void drop_curves_without_triangles(const std::vector<Vertex>& number);
   void check_closed() const;
   void name_regions();
@@ -289,7 +290,7 @@ void Triangulator::add_empty_face(const TopoDS_Face& face, std::int32_t region) 
 void Triangulator::add_triangles(const TopoDS_Face& face, const std::vector<NodeEdge>& border,
                                  std::vector<Triangle> triangles, bool is_mirrored, std::int32_t region) {
   const FilledGaps gaps = fill_gaps(face, border, triangles, nodes_, result_.deviation);
-  if (!gaps.are_closed && triangles.empty()) fail_at(face, region);
+  if (triangles.empty() && gaps.triangles.empty()) fail_at(face, region);
   if (!gaps.are_closed)
     throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g})", region,
                         title_of(face), gaps.place.x, gaps.place.y, gaps.place.z);
@@ -394,10 +395,32 @@ void Triangulator::add_curves() {
   }
 }
 
+// Triangles that have the same nodes as another one from the other side: between the sides of a tip that became one.
+std::vector<bool> Triangulator::flat_pairs() {
+  const std::vector<Triangle>& triangles = result_.surface.triangles;
+  std::vector<bool> is_flat(triangles.size());
+  if (tips_.empty()) return is_flat;
+  std::map<Triangle, std::size_t> seen;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    Triangle t = triangles[i];
+    for (Vertex& v : t) v = same_.of(v);
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    const auto other = seen.find({t[0], t[2], t[1]});
+    if (other == seen.end()) {
+      seen.emplace(t, i);
+      continue;
+    }
+    is_flat[i] = is_flat[other->second] = true;
+    seen.erase(other);
+  }
+  return is_flat;
+}
+
 // Nodes that are one become one point. Triangles with fewer than three points, which occur at poles, go, and so do
-// walls inside.
+// walls inside, and pairs of triangles with nothing between them.
 void Triangulator::number_points() {
   formats::SurfaceSoup& surface = result_.surface;
+  const std::vector<bool> is_flat = flat_pairs();
   std::vector<Vertex> number(nodes_.size(), no_index);
   const auto number_of = [&](std::int32_t node) {
     Vertex& known = number[same_.of(node)];
@@ -411,7 +434,8 @@ void Triangulator::number_points() {
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     Triangle t = surface.triangles[i];
     for (Vertex& v : t) v = same_.of(v);
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || surface.sides[i] == std::array<std::int32_t, 2>{}) continue;
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || surface.sides[i] == std::array<std::int32_t, 2>{} || is_flat[i])
+      continue;
     for (Vertex& v : t) v = number_of(v);
     surface.triangles[kept] = t;
     surface.tags[kept] = surface.tags[i];
@@ -499,6 +523,17 @@ void Triangulator::find_crossings(Attempt& attempt) const {
   }
 }
 
+// With the faces that share edges with them: points on edges stay as fine as any face beside them asks for.
+TopTools_IndexedMapOfShape with_neighbours(const TopTools_IndexedMapOfShape& faces, const TopoDS_Compound& whole) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_edge;
+  TopExp::MapShapesAndAncestors(whole, TopAbs_EDGE, TopAbs_FACE, faces_of_edge);
+  TopTools_IndexedMapOfShape result = faces;
+  for (int f = 1; f <= faces.Extent(); ++f)
+    for (TopExp_Explorer edge(faces(f), TopAbs_EDGE); edge.More(); edge.Next())
+      for (const TopoDS_Shape& beside : faces_of_edge.FindFromKey(edge.Current())) result.Add(beside);
+  return result;
+}
+
 // Nothing if OpenCASCADE fails at it.
 std::optional<Attempt> attempt_anew(const CadModel& model, const TopoDS_Compound& whole,
                                     const TriangulationOptions& options, const Fineness& fineness, double deviation,
@@ -540,7 +575,9 @@ Triangulation triangulate(const CadModel& model, const TriangulationOptions& opt
   for (const Fineness& fineness : fineness_where_crossing) {
     if (fineness.deviation > 1 && options.deviation) continue;
     if (fineness.deviation <= 1 && first.made.surface.triangles.size() > most_triangles) continue;
-    std::optional<Attempt> attempt = attempt_anew(model, whole, options, fineness, deviation, crossing, source);
+    const bool is_coarser = fineness.deviation > 1;
+    std::optional<Attempt> attempt = attempt_anew(model, whole, options, fineness, deviation,
+                                                  is_coarser ? with_neighbours(crossing, whole) : crossing, source);
     if (!attempt) continue;
     attempt->made.made_anew = {first.crossings, true};
     if (attempt->crossings == 0) return std::move(attempt->made);
