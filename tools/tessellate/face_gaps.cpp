@@ -44,11 +44,12 @@ class WantedEdges {
 
   // The loops that they form. Edges that are left over form a loop, too, which no triangles near the face close.
   std::vector<Loop> loops() const {
-    std::multimap<std::int32_t, std::int32_t> edges;
-    for (const auto& [edge, count] : count_) {
-      for (int i = 0; i < count; ++i) edges.emplace(edge.first, edge.second);
-      for (int i = 0; i < -count; ++i) edges.emplace(edge.second, edge.first);
-    }
+    std::vector<NodeEdge> wanted;
+    for (const auto& [edge, count] : count_)
+      wanted.insert(wanted.end(), static_cast<std::size_t>(std::abs(count)),
+                    count > 0 ? NodeEdge(edge[0], edge[1]) : NodeEdge(edge[1], edge[0]));
+    std::ranges::sort(wanted);
+    std::multimap<std::int32_t, std::int32_t> edges(wanted.begin(), wanted.end());
     std::vector<Loop> loops;
     while (!edges.empty()) {
       Loop path{edges.begin()->first};
@@ -69,11 +70,10 @@ class WantedEdges {
 
  private:
   void add(std::int32_t from, std::int32_t to, int count) {
-    if (from < to) count_[{from, to}] += count;
-    if (from > to) count_[{to, from}] -= count;
+    if (from != to) count_[edge_key(from, to)] += from < to ? count : -count;
   }
 
-  std::map<NodeEdge, int> count_;
+  KeyMap<2, int> count_;
 };
 
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -87,16 +87,11 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 class Tip {
  public:
   Tip(const Loop& loop, std::size_t corner, const std::vector<Vec3>& nodes, double reach)
-      : nodes_(nodes), reach_(reach), corner_(loop[corner]) {
-    const std::size_t n = loop.size();
-    for (std::size_t i = 1; i < n; ++i) {
-      sides_[0].push_back(loop[(corner + i) % n]);
-      sides_[1].push_back(loop[(corner + n - i) % n]);
-    }
-    const Vec3 first = nodes_[sides_[0][0]] - nodes_[corner_], second = nodes_[sides_[1][0]] - nodes_[corner_];
+      : loop_(loop), corner_(corner), nodes_(nodes), reach_(reach) {
+    const Vec3 first = next(0) - at_corner(), second = next(1) - at_corner();
     if (dot(first, second) < least_cosine_of_tip * norm(first) * norm(second)) return;
     // One node at least stays beyond the tip.
-    while (counts_[0] + counts_[1] + 2 < n) {
+    while (counts_[0] + counts_[1] + 2 < loop.size()) {
       const std::size_t nearer = distance(0) <= distance(1) ? 0 : 1;
       if (!is_near_other_side(nearer)) break;
       ++counts_[nearer];
@@ -107,10 +102,10 @@ class Tip {
   void append_joins(std::vector<NodeEdge>& joins) const {
     const std::size_t finer = counts_[0] > counts_[1] ? 0 : 1;
     for (std::size_t i = 0; i < counts_[finer]; ++i) {
-      const std::int32_t node = sides_[finer][i];
-      std::int32_t nearest = corner_;
+      const std::int32_t node = node_of(finer, i);
+      std::int32_t nearest = loop_[corner_];
       for (std::size_t k = 0; k < counts_[1 - finer]; ++k)
-        if (const std::int32_t other = sides_[1 - finer][k];
+        if (const std::int32_t other = node_of(1 - finer, k);
             norm_squared(nodes_[other] - nodes_[node]) < norm_squared(nodes_[nearest] - nodes_[node]))
           nearest = other;
       joins.emplace_back(node, nearest);
@@ -118,24 +113,30 @@ class Tip {
   }
 
  private:
-  const Vec3& next(std::size_t side) const { return nodes_[sides_[side][counts_[side]]]; }
-  double distance(std::size_t side) const { return norm_squared(next(side) - nodes_[corner_]); }
+  // From the corner on: side 0 goes along the loop, side 1 against it.
+  std::int32_t node_of(std::size_t side, std::size_t i) const {
+    const std::size_t n = loop_.size();
+    return loop_[(side == 0 ? corner_ + 1 + i : corner_ + n - 1 - i) % n];
+  }
+  const Vec3& at_corner() const { return nodes_[loop_[corner_]]; }
+  const Vec3& next(std::size_t side) const { return nodes_[node_of(side, counts_[side])]; }
+  double distance(std::size_t side) const { return norm_squared(next(side) - at_corner()); }
   bool is_near_other_side(std::size_t side) const {
     const std::size_t other = 1 - side;
-    Vec3 from = nodes_[corner_];
+    Vec3 from = at_corner();
     for (std::size_t k = 0; k <= counts_[other]; ++k) {
-      const Vec3& to = nodes_[sides_[other][k]];
+      const Vec3& to = nodes_[node_of(other, k)];
       if (distance_to_segment(next(side), from, to) <= reach_) return true;
       from = to;
     }
     return false;
   }
 
+  const Loop& loop_;
+  std::size_t corner_;
   const std::vector<Vec3>& nodes_;
   double reach_;
-  std::int32_t corner_;
-  std::array<Loop, 2> sides_;                // from the corner on
-  std::array<std::size_t, 2> counts_{0, 0};  // how many nodes of each belong to the tip
+  std::array<std::size_t, 2> counts_{0, 0};  // how many nodes of each side belong to the tip
 };
 
 // What is left of the loop when nodes are joined: steps from a node to itself go, and steps to and fro.
@@ -303,31 +304,29 @@ class GapFiller {
 
   // Cuts inner edges whose middle is too far from the face; false if triangles stay too far from it.
   bool refine(std::vector<Triangle>& triangles) {
-    std::map<NodeEdge, std::vector<std::size_t>> at_edge;
-    const auto edge_of = [](std::int32_t a, std::int32_t b) { return NodeEdge(std::min(a, b), std::max(a, b)); };
+    using Edge = VertexKey<2>;
+    KeyMap<2, std::vector<std::size_t>> at_edge;
     const auto for_edges = [&](std::size_t t, auto&& visit) {
-      for (std::size_t k = 0; k < 3; ++k) visit(edge_of(triangles[t][k], triangles[t][(k + 1) % 3]));
+      for (std::size_t k = 0; k < 3; ++k) visit(edge_key(triangles[t][k], triangles[t][(k + 1) % 3]));
     };
     // The longest first, so that triangles stay in shape.
-    std::priority_queue<std::pair<double, NodeEdge>> queue;
+    std::priority_queue<std::pair<double, Edge>> queue;
     const auto link = [&](std::size_t t) {
-      for_edges(t, [&](const NodeEdge& edge) {
+      for_edges(t, [&](const Edge& edge) {
         at_edge[edge].push_back(t);
-        queue.emplace(norm_squared(nodes_[edge.second] - nodes_[edge.first]), edge);
+        queue.emplace(norm_squared(nodes_[edge[1]] - nodes_[edge[0]]), edge);
       });
     };
-    const auto unlink = [&](std::size_t t) {
-      for_edges(t, [&](const NodeEdge& edge) { std::erase(at_edge[edge], t); });
-    };
+    const auto unlink = [&](std::size_t t) { for_edges(t, [&](const Edge& edge) { std::erase(at_edge[edge], t); }); };
     for (std::size_t t = 0; t < triangles.size(); ++t) link(t);
     while (!queue.empty()) {
-      const NodeEdge edge = queue.top().second;
+      const Edge edge = queue.top().second;
       queue.pop();
       const std::vector<std::size_t> beside = at_edge[edge];
       if (beside.size() != 2) continue;
-      const gp_Pnt2d between((parameters_[edge.first].XY() + parameters_[edge.second].XY()) / 2);
+      const gp_Pnt2d between((parameters_[edge[0]].XY() + parameters_[edge[1]].XY()) / 2);
       const Vec3 middle = on_surface(between);
-      if (norm(middle - 0.5 * (nodes_[edge.first] + nodes_[edge.second])) <= reach_) continue;
+      if (norm(middle - 0.5 * (nodes_[edge[0]] + nodes_[edge[1]])) <= reach_) continue;
       if (nodes_.size() - given_ >= most_new_nodes) return false;
       const auto node = static_cast<std::int32_t>(nodes_.size());
       nodes_.push_back(middle);
@@ -335,8 +334,8 @@ class GapFiller {
       for (const std::size_t t : beside) {
         unlink(t);
         Triangle other = triangles[t];
-        std::ranges::replace(triangles[t], edge.first, node);
-        std::ranges::replace(other, edge.second, node);
+        std::ranges::replace(triangles[t], edge[0], node);
+        std::ranges::replace(other, edge[1], node);
         triangles.push_back(other);
         link(t);
         link(triangles.size() - 1);
