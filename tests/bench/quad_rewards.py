@@ -7,7 +7,8 @@ defaults. A kind is the price of an open quad (`buildgraph --quad-reward`): 0 is
 quads`; with `+exchange` assemble exchanges after a choice with prices, too; `volume:` before it is another `--weight`. With BEFORE,
 a folder of tools of an earlier version, these run first, with all of their defaults. Printed as Markdown are, for each, means over
 the seeds of initsol and lns: processor seconds of initsol, lns and assemble, and of assemble alone, and what assemble's statistics
-say of the mesh; tests/checkers/meshstats.py has to find it valid and conforming. `+-` is half of the range between the seeds.
+say of the mesh; tests/checkers/meshstats.py has to find it valid and conforming, and counts its open quads: the inner ones that a
+pyramid has. `+-` is half of the range between the seeds.
 Then each kind is compared with the first one (BEFORE, if that is given): where hexes have less of the volume or of the number by
 more than LOWER points, and how seconds and open quads compare. Models are those of ../shared/models; the tools are taken from
 build/bin, or from HEXPIPE_BIN. Ends with 1 if the pipe as it is has less than BEFORE somewhere, or more open quads in the mean.
@@ -57,6 +58,7 @@ def check(mesh):
     found = json.loads(subprocess.run([MESHSTATS, "--json", "--exact", mesh], check=True, capture_output=True, text=True).stdout)
     if not found["is_conforming"] or found["invalid_hexes"] or found["inverted_cells"]:
         sys.exit(f"{mesh}: not a valid, conforming mesh")
+    return found
 
 
 def measure(kind, seed):
@@ -65,7 +67,7 @@ def measure(kind, seed):
     searches = seconds_of(kind.tools, "initsol", "graph.tar", "--seed", seed, "-o", "start.tar")
     searches += seconds_of(kind.tools, "lns", "start.tar", "--seed", seed, "-o", "choice.tar")
     assembling = seconds_of(kind.tools, "assemble", "choice.tar", *kind.assemble_options, "-o", "mesh.vtu", "--stats", "stats.json")
-    check("mesh.vtu")
+    found = check("mesh.vtu")
     with open("stats.json") as file:
         stats = json.load(file)
     cells = stats["cells"]
@@ -74,7 +76,7 @@ def measure(kind, seed):
     return {"seconds": searches + assembling, "assemble s": assembling,
             "volume %": 100 * cells["hex"]["share_of_volume"], "number %": 100 * count["hex"] / sum(count.values()),
             "hexes": count["hex"], "prisms": count["prism"], "pyramids": count["pyramid"], "tets": count["tet"],
-            "open quads": stats["conformity"]["quads_against_tets"], "least hex": cells["hex"]["scaled_jacobian"]["least"],
+            "open quads": found["quads_at_pyramids"], "least hex": cells["hex"]["scaled_jacobian"]["least"],
             "mean hex": cells["hex"]["scaled_jacobian"]["mean"], "least other": min(others, default=1)}
 
 
