@@ -202,6 +202,52 @@ END
   assert_equal "$(surface many.tar 'sides.max()')" 500
 }
 
+@test "an assembly has its parts in other files, beside it wherever it is" {
+  mkdir elsewhere
+  cp "$DATA"/stand/* elsewhere
+  tessellate elsewhere/stand.step -o stand.tar
+  assert_equal "$(surface stand.tar 'points.min(0).tolist(), points.max(0).tolist(), round(volume(), 9)')" "([0.0, 0.0, 0.0], [4.0, 3.0, 3.0], 16.0)"
+  assert_equal "$(surface stand.tar 'names["regions"], sorted(names["surfaces"].values()), area(tags_of("socket")[0])')" \
+    "({'1': 'base', '2': 'post', '3': 'post'}, ['socket'], 4.0)"
+  # Standard input has no folder; the current one takes its place.
+  (cd elsewhere && tessellate <stand.step -o ../piped.tar)
+  assert_equal "$(surface piped.tar 'sides.max()')" 3
+  assert_fails_with 1 "^tessellate: stdin: expected its part 'base.stp' beside it, which is the current folder for standard input, found no such file" \
+    shell 'tessellate <elsewhere/stand.step'
+  # Parts of parts are beside the file that names them.
+  mkdir -p tower/parts
+  sed "s/'base.stp'/'parts\/stand.step'/" elsewhere/stand.step >tower/tower.step
+  cp elsewhere/post.stp tower
+  cp elsewhere/* tower/parts
+  tessellate tower/tower.step -o tower.tar
+  assert_equal "$(surface tower.tar 'sides.max(), round(volume(), 9)')" "(5, 20.0)"
+}
+
+@test "a part of an assembly that cannot be read is an error, and so are files that refer to each other in a circle" {
+  cp "$DATA"/stand/* .
+  mv post.stp other.stp
+  assert_fails_with 1 "^tessellate: stand.step: expected its part 'post.stp' beside it, found no such file" tessellate stand.step -o x.tar
+  head -c 9000 other.stp >post.stp
+  assert_fails_with 1 "post.stp: expected END-ISO-10303-21; at the end" tessellate stand.step -o x.tar
+  : >post.stp
+  assert_fails_with 1 "post.stp: expected END-ISO-10303-21; at the end" tessellate stand.step -o x.tar
+  sed 's/;$//' other.stp >post.stp
+  assert_fails_with 1 "post.stp: expected a STEP file, found one that OpenCASCADE cannot read" tessellate stand.step -o x.tar
+  cp stand.step post.stp
+  assert_fails_with 1 "post.stp: expected parts in other files, found that 'post.stp' refers back to itself" tessellate stand.step -o x.tar
+  sed 's/post.stp/stand.step/' stand.step >post.stp
+  assert_fails_with 1 "post.stp: expected parts in other files, found that 'stand.step' refers back to itself" tessellate stand.step -o x.tar
+  mv other.stp post.stp
+  # Where a shape representation has the format, OpenCASCADE minds it.
+  sed "s/STEP AP214/STEP AP999/; s/ REPRESENTATION('document format'/ SHAPE_REPRESENTATION('document format'/" stand.step >newer.step
+  assert_fails_with 1 "newer.step: OpenCASCADE reads no part of the format 'STEP AP999' from another file, as 'base.stp' is" tessellate newer.step -o x.tar
+  [[ ! -e x.tar ]]
+  sed 's/post.stp/post.pdf/' stand.step >drawing.step
+  run_apart tessellate drawing.step -o x.tar
+  assert_success
+  assert_equal "$stderr" "tessellate: warning: drawing.step: 'post.pdf', to which drawing.step refers, is no STEP file, and is left out"
+}
+
 @test "--join makes one face of two that touch" {
   step touching half-touching
   tessellate touching.step -o apart.tar

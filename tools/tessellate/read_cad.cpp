@@ -9,13 +9,11 @@
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
-#include <Interface_Check.hxx>
-#include <Interface_CheckIterator.hxx>
 #include <Interface_Static.hxx>
 #include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_ExternFile.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
-#include <StepData_StepModel.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp_Explorer.hxx>
@@ -24,6 +22,7 @@
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -31,11 +30,12 @@
 #include "common/run/error.hpp"
 #include "formats/streams/text_scanner.hpp"
 #include "tools/tessellate/occt_names.hpp"
+#include "tools/tessellate/step_files.hpp"
 
 namespace hexpipe::tessellate {
 namespace {
 
-constexpr std::string_view step_begin = "ISO-10303-21", step_end = "END-ISO-10303-21";
+constexpr std::string_view step_begin = "ISO-10303-21";
 
 // Whether a line of IGES ends with the number 1 behind the letter of its section. Some programs fill numbers up by
 // blanks, others by zeros.
@@ -60,11 +60,6 @@ bool ends_as_iges(std::string_view bytes) {
 bool looks_like_brep(std::string_view bytes) {
   bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
   return bytes.starts_with("DBRep_DrawableShape") || bytes.starts_with("CASCADE Topology");
-}
-
-// Blanks and comments after the last word do not count.
-bool ends_with_word(std::string_view bytes, std::string_view word) {
-  return bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096)).rfind(word) != std::string_view::npos;
 }
 
 // Recognized by a part of its name in STEP and IGES.
@@ -121,36 +116,23 @@ void finish(const TopoDS_Shape& whole, const std::string& name, CadModel& model)
     find_sheets(whole, model);
 }
 
-// OpenCASCADE takes a default for what it cannot read, 0 for a coordinate.
-void tell_faulty_entities(const Handle(XSControl_WorkSession) & session, CadModel& model) {
-  const auto entities = Handle(StepData_StepModel)::DownCast(session->Model());
-  std::size_t faulty = 0;
-  std::string first;
-  Interface_CheckIterator checks = session->ModelCheckList();
-  for (checks.Start(); checks.More(); checks.Next()) {
-    const Handle(Interface_Check) check = checks.Value();
-    if (checks.Number() < 1 || check->NbFails() == 0) continue;
-    if (++faulty == 1)
-      first = fmt::format("#{}: {}", entities->IdentLabel(entities->Value(checks.Number())), check->CFail(1));
-  }
-  if (faulty > 0)
-    model.warnings.push_back(fmt::format("{} faulty, and may be taken for something else; the first is {}",
-                                         faulty == 1 ? "an entity is" : fmt::format("{} entities are", faulty), first));
-}
-
-CadModel read_step(const std::string& bytes, const std::string& name) {
-  if (!ends_with_word(bytes, step_end))
-    throw DataError::at(name, "expected {}; at the end of a STEP file, found none: it is cut off", step_end);
+// `path` is where other files with parts are sought beside, empty for the current folder.
+CadModel read_step(const std::string& bytes, const std::string& name, const std::string& path) {
+  check_end_of_step(bytes, name);
   STEPCAFControl_Controller::Init();
   STEPCAFControl_Reader reader;
   reader.SetColorMode(Standard_True);
   reader.SetNameMode(Standard_True);
   reader.SetLayerMode(Standard_True);
   std::istringstream stream(bytes);
-  if (reader.ChangeReader().ReadStream("", stream) != IFSelect_RetDone)
+  // OpenCASCADE seeks other files beside a whole path alone.
+  const std::string place = path.empty() ? path : std::filesystem::absolute(path).string();
+  if (reader.ChangeReader().ReadStream(place.c_str(), stream) != IFSelect_RetDone)
     throw DataError::at(name, "expected a STEP file, found one that OpenCASCADE cannot read: its syntax is wrong");
   CadModel model;
-  tell_faulty_entities(reader.Reader().WS(), model);
+  if (std::string faults = faulty_entities(reader.Reader().WS()); !faults.empty())
+    model.warnings.push_back(std::move(faults));
+  check_referenced_files(reader.Reader().WS(), name, model.warnings);
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
   if (lengths.IsEmpty())
@@ -161,6 +143,10 @@ CadModel read_step(const std::string& bytes, const std::string& name) {
   if (!reader.Transfer(document))
     throw DataError::at(name, "expected shapes in a STEP file, found none that OpenCASCADE can make");
   add_entity_names(reader.Reader().WS(), model.names);
+  for (NCollection_DataMap<TCollection_AsciiString, Handle(STEPCAFControl_ExternFile)>::Iterator file(
+           reader.ExternFiles());
+       file.More(); file.Next())
+    add_entity_names(file.Value()->GetWS(), model.names);
   add_document_names(document, model.names);
   add_bodies(document, model);
   finish(whole_of(document), name, model);
@@ -262,7 +248,7 @@ CadModel read_cad(formats::Input& input) {
   if (bytes.empty()) throw DataError::at(name, "expected CAD in STEP, IGES or BREP, found nothing: it is empty");
   const std::string_view text = formats::without_byte_order_mark(bytes);
   try {
-    if (text.substr(0, 4096).find(step_begin) != std::string_view::npos) return read_step(bytes, name);
+    if (text.substr(0, 4096).find(step_begin) != std::string_view::npos) return read_step(bytes, name, input.path());
     if (looks_like_brep(text)) return read_brep(bytes, name);
     if (looks_like_iges(text)) return read_iges(bytes, name, input.path());
   } catch (const Standard_Failure& failure) {

@@ -1,0 +1,141 @@
+#include "tools/tessellate/step_files.hpp"
+
+#include <fmt/format.h>
+
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <OSD_Path.hxx>
+#include <STEPConstruct_ExternRefs.hxx>
+#include <STEPControl_Reader.hxx>
+#include <StepData_StepModel.hxx>
+#include <TCollection_AsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+#include "common/run/error.hpp"
+#include "formats/streams/input.hpp"
+
+namespace hexpipe::tessellate {
+namespace {
+
+constexpr std::string_view step_end = "END-ISO-10303-21";
+// What OpenCASCADE takes references for; others it leaves out.
+constexpr std::array<std::string_view, 2> formats_read{"STEP AP203", "STEP AP214"};  // in capitals or not
+
+std::string in_lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool is_named_as_step(const std::string& file) {
+  const std::string name = in_lower_case(file);
+  return name.ends_with(".stp") || name.ends_with(".step") || name.ends_with(".p21");
+}
+
+// As OpenCASCADE finds it: from the folder of the file that was read.
+std::string place_of(const std::string& file, const Handle(XSControl_WorkSession) & session) {
+  OSD_Path folder(session->LoadedFile());
+  folder.SetName("");
+  folder.SetExtension("");
+  TCollection_AsciiString path;
+  folder.SystemName(path);
+  const TCollection_AsciiString place = OSD_Path::AbsolutePath(path, file.c_str());
+  return place.IsEmpty() ? file : place.ToCString();
+}
+
+class FileCheck {
+ public:
+  FileCheck(bool is_first_piped, std::vector<std::string>& warnings)
+      : is_first_piped_(is_first_piped), warnings_(warnings) {}
+
+  void check_references_of(const Handle(XSControl_WorkSession) & session, const std::string& name,
+                           const std::string& place) {
+    open_.insert(place);
+    STEPConstruct_ExternRefs references(session);
+    references.LoadExternRefs();
+    for (Standard_Integer i = 1; i <= references.NbExternRefs(); ++i) {
+      const Standard_CString file = references.FileName(i);
+      if (file == nullptr || *file == '\0') continue;
+      const Handle(TCollection_HAsciiString) format = references.Format(i);
+      check(file, format.IsNull() ? std::string() : format->ToCString(), name, session);
+    }
+    open_.erase(place);
+  }
+
+ private:
+  void check(const std::string& file, const std::string& format, const std::string& name,
+             const Handle(XSControl_WorkSession) & session) {
+    if (!is_named_as_step(file)) {
+      warnings_.push_back(fmt::format("'{}', to which {} refers, is no STEP file, and is left out", file, name));
+      return;
+    }
+    const auto is_format = [&](std::string_view known) {
+      return in_lower_case(std::string(known)) == in_lower_case(format);
+    };
+    if (!format.empty() && std::ranges::none_of(formats_read, is_format))
+      throw DataError::at(
+          name, "OpenCASCADE reads no part of the format '{}' from another file, as '{}' is; it reads {} and {}",
+          format, file, formats_read[0], formats_read[1]);
+    const std::string place = std::filesystem::weakly_canonical(place_of(file, session)).string();
+    if (open_.contains(place))
+      throw DataError::at(name, "expected parts in other files, found that '{}' refers back to itself", file);
+    if (!done_.insert(place).second) return;
+    check_file(file, place, name);
+  }
+
+  void check_file(const std::string& file, const std::string& place, const std::string& name) {
+    std::error_code error;
+    if (!std::filesystem::exists(place, error))
+      throw DataError::at(name, "expected its part '{}' beside it{}, found no such file", file,
+                          is_first_piped_ ? ", which is the current folder for standard input" : "");
+    check_end_of_step(formats::Input::open(place).read_all(), place);
+    STEPControl_Reader reader;
+    if (reader.ReadFile(place.c_str()) != IFSelect_RetDone)
+      throw DataError::at(place, "expected a STEP file, found one that OpenCASCADE cannot read: its syntax is wrong");
+    if (const std::string faults = faulty_entities(reader.WS()); !faults.empty())
+      warnings_.push_back(fmt::format("{}: {}", file, faults));
+    check_references_of(reader.WS(), place, place);
+  }
+
+  bool is_first_piped_;
+  std::vector<std::string>& warnings_;
+  std::set<std::string> open_;  // files on the way from the first one
+  std::set<std::string> done_;
+};
+
+}  // namespace
+
+void check_end_of_step(std::string_view bytes, const std::string& name) {
+  if (bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096)).rfind(step_end) == std::string_view::npos)
+    throw DataError::at(name, "expected {}; at the end of a STEP file, found none: it is cut off", step_end);
+}
+
+std::string faulty_entities(const Handle(XSControl_WorkSession) & session) {
+  const auto entities = Handle(StepData_StepModel)::DownCast(session->Model());
+  std::size_t faulty = 0;
+  std::string first;
+  Interface_CheckIterator checks = session->ModelCheckList();
+  for (checks.Start(); checks.More(); checks.Next()) {
+    const Handle(Interface_Check) check = checks.Value();
+    if (checks.Number() < 1 || check->NbFails() == 0) continue;
+    if (++faulty == 1)
+      first = fmt::format("#{}: {}", entities->IdentLabel(entities->Value(checks.Number())), check->CFail(1));
+  }
+  if (faulty == 0) return {};
+  return fmt::format("{} faulty, and may be taken for something else; the first is {}",
+                     faulty == 1 ? "an entity is" : fmt::format("{} entities are", faulty), first);
+}
+
+void check_referenced_files(const Handle(XSControl_WorkSession) & session, const std::string& name,
+                            std::vector<std::string>& warnings) {
+  const std::string path = session->LoadedFile();
+  FileCheck(path.empty(), warnings)
+      .check_references_of(session, name, path.empty() ? path : std::filesystem::weakly_canonical(path).string());
+}
+
+}  // namespace hexpipe::tessellate
