@@ -242,10 +242,24 @@ END
   sed "s/STEP AP214/STEP AP999/; s/ REPRESENTATION('document format'/ SHAPE_REPRESENTATION('document format'/" stand.step >newer.step
   assert_fails_with 1 "newer.step: OpenCASCADE reads no part of the format 'STEP AP999' from another file, as 'base.stp' is" tessellate newer.step -o x.tar
   [[ ! -e x.tar ]]
+  # A drawing is no part.
   sed 's/post.stp/post.pdf/' stand.step >drawing.step
   run_apart tessellate drawing.step -o x.tar
   assert_success
-  assert_equal "$stderr" "tessellate: warning: drawing.step: 'post.pdf', to which drawing.step refers, is no STEP file, and is left out"
+  assert_equal "$stderr" ""
+}
+
+@test "a solid of which OpenCASCADE makes none is told" {
+  step apart
+  # The shell of body 2 without its last face, and without any.
+  sed -E "s/^(#299=CLOSED_SHELL\('',\(.*),#[0-9]+\)\);/\1));/" apart.step >open.step
+  sed -E "s/^(#299=CLOSED_SHELL\('',\().*\)\);/\1));/" apart.step >none.step
+  for file in open none; do
+    run_apart tessellate $file.step -o x.tar
+    assert_success
+    assert_equal "${stderr_lines[0]}" "tessellate: warning: $file.step: a solid has no closed shell, and is left out; the first is #300 'body 2'"
+    assert_equal "$(surface x.tar 'sides.max()')" 1
+  done
 }
 
 @test "--join makes one face of two that touch" {

@@ -142,13 +142,20 @@ CadModel read_step(const std::string& bytes, const std::string& name, const std:
   Handle(TDocStd_Document) document = new_document();
   if (!reader.Transfer(document))
     throw DataError::at(name, "expected shapes in a STEP file, found none that OpenCASCADE can make");
-  add_entity_names(reader.Reader().WS(), model.names);
+  std::vector<std::string> lost;
+  const auto add_contents = [&](const Handle(XSControl_WorkSession) & session, const std::string& prefix) {
+    add_entity_names(session, model.names);
+    if (const std::string solids = lost_solids(session); !solids.empty()) lost.push_back(prefix + solids);
+  };
+  add_contents(reader.Reader().WS(), "");
   for (NCollection_DataMap<TCollection_AsciiString, Handle(STEPCAFControl_ExternFile)>::Iterator file(
            reader.ExternFiles());
        file.More(); file.Next())
-    add_entity_names(file.Value()->GetWS(), model.names);
+    add_contents(file.Value()->GetWS(), std::string(file.Key().ToCString()) + ": ");
   add_document_names(document, model.names);
   add_bodies(document, model);
+  // Where there is no other body, their shells may still be sewn.
+  if (!model.bodies.empty()) model.warnings.insert(model.warnings.end(), lost.begin(), lost.end());
   finish(whole_of(document), name, model);
   return model;
 }

@@ -8,8 +8,13 @@
 #include <STEPConstruct_ExternRefs.hxx>
 #include <STEPControl_Reader.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepShape_ManifoldSolidBrep.hxx>
 #include <TCollection_AsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -19,6 +24,7 @@
 
 #include "common/run/error.hpp"
 #include "formats/streams/input.hpp"
+#include "tools/tessellate/occt_names.hpp"
 
 namespace hexpipe::tessellate {
 namespace {
@@ -70,10 +76,8 @@ class FileCheck {
  private:
   void check(const std::string& file, const std::string& format, const std::string& name,
              const Handle(XSControl_WorkSession) & session) {
-    if (!is_named_as_step(file)) {
-      warnings_.push_back(fmt::format("'{}', to which {} refers, is no STEP file, and is left out", file, name));
-      return;
-    }
+    // Drawings and names in the program's own data base.
+    if (!is_named_as_step(file)) return;
     const auto is_format = [&](std::string_view known) {
       return in_lower_case(std::string(known)) == in_lower_case(format);
     };
@@ -129,6 +133,24 @@ std::string faulty_entities(const Handle(XSControl_WorkSession) & session) {
   if (faulty == 0) return {};
   return fmt::format("{} faulty, and may be taken for something else; the first is {}",
                      faulty == 1 ? "an entity is" : fmt::format("{} entities are", faulty), first);
+}
+
+std::string lost_solids(const Handle(XSControl_WorkSession) & session) {
+  const auto entities = Handle(StepData_StepModel)::DownCast(session->Model());
+  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
+  std::size_t lost = 0;
+  std::string first;
+  for (Standard_Integer i = 1; i <= entities->NbEntities(); ++i) {
+    const auto solid = Handle(StepShape_ManifoldSolidBrep)::DownCast(entities->Value(i));
+    // What no product uses was never asked for.
+    if (solid.IsNull() || !process->IsBound(solid)) continue;
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, solid);
+    if (!shape.IsNull() && TopExp_Explorer(shape, TopAbs_SOLID).More()) continue;
+    if (++lost == 1) first = fmt::format("#{} '{}'", entities->IdentLabel(solid), cad_name(solid->Name()->ToCString()));
+  }
+  if (lost == 0) return {};
+  return fmt::format("{} no closed shell, and {} left out; the first is {}",
+                     lost == 1 ? "a solid has" : fmt::format("{} solids have", lost), lost == 1 ? "is" : "are", first);
 }
 
 void check_referenced_files(const Handle(XSControl_WorkSession) & session, const std::string& name,
