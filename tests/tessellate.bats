@@ -424,6 +424,8 @@ PYTHON
     assert_fails_with 1 "cut.step: expected END-ISO-10303-21; at the end" tessellate cut.step
   done
   assert_fails_with 1 "cube.stl: expected CAD in STEP, IGES or BREP, found" tessellate "$DATA/cube.stl"
+  sed 's/MANIFOLD_SOLID_BREP/TESSELLATED_SOLID/' box.step >triangles.step
+  assert_fails_with 1 "triangles.step: expected bodies with exact faces, found some of triangles" tessellate triangles.step
   sed 's/ADVANCED_FACE/NO_SUCH_FACE/' box.step >unknown.step
   assert_fails_with 1 "unknown.step: expected" tessellate unknown.step
   assert_fails_with 1 "none.step: cannot open" tessellate none.step

@@ -156,7 +156,13 @@ CadModel read_step(const std::string& bytes, const std::string& name, const std:
   add_bodies(document, model);
   // Where there is no other body, their shells may still be sewn.
   if (!model.bodies.empty()) model.warnings.insert(model.warnings.end(), lost.begin(), lost.end());
-  finish(whole_of(document), name, model);
+  const TopoDS_Shape whole = whole_of(document);
+  if (!TopExp_Explorer(whole, TopAbs_FACE).More() && bytes.find("TESSELLATED_SOLID") != std::string::npos)
+    throw DataError::at(
+        name,
+        "expected bodies with exact faces, found some of triangles (TESSELLATED_SOLID), which OpenCASCADE "
+        "does not read; STL keeps triangles, too");
+  finish(whole, name, model);
   return model;
 }
 
