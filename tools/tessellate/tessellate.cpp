@@ -34,10 +34,14 @@ void leave_out_sheets(CadModel& model) {
 std::string text_about(const MadeAnew& made_anew, double deviation) {
   const bool is_one = made_anew.crossings == 1;
   const std::string pairs = fmt::format("{} pair{} of triangles", made_anew.crossings, is_one ? "" : "s");
-  return made_anew.helped
-             ? fmt::format("{} crossed each other; none do since triangles were made anew, within {:.4g} of the faces",
-                           pairs, deviation)
-             : fmt::format("{} cross{} each other, and so do finer and coarser ones", pairs, is_one ? "es" : "");
+  if (made_anew.helped)
+    return fmt::format("{} crossed each other; none do since triangles were made anew, within {:.4g} of the faces",
+                       pairs, deviation);
+  if (made_anew.collapsed > 0)
+    return fmt::format("{} crossed each other; none do since {} there, of at most {:.4g}, became points", pairs,
+                       made_anew.collapsed == 1 ? "a short edge" : fmt::format("{} short edges", made_anew.collapsed),
+                       deviation);
+  return fmt::format("{} cross{} each other, and so do finer and coarser ones", pairs, is_one ? "es" : "");
 }
 
 }  // namespace
@@ -66,6 +70,7 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
     result.curves = made.curves;
     result.deviation = made.deviation / unit.millimetres;
     result.crossings = made.made_anew.crossings;
+    result.collapsed_edges = made.made_anew.collapsed;
     result.gap_triangles = made.gap_triangles;
     result.joined_nodes = made.joined_nodes;
     if (result.crossings > 0) model.warnings.push_back(text_about(made.made_anew, result.deviation));
@@ -91,6 +96,7 @@ nlohmann::ordered_json to_json(const TessellateResult& result) {
                               {"points", result.surface.points.size()},
                               {"triangles", result.surface.triangles.size()},
                               {"crossings", result.crossings},
+                              {"collapsed_edges", result.collapsed_edges},
                               {"gap_triangles", result.gap_triangles},
                               {"joined_nodes", result.joined_nodes},
                               {"names", result.surface.names.surfaces.size()}};

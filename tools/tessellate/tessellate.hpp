@@ -27,6 +27,7 @@ struct TessellateResult {
   double deviation = 0;                             // in the units that are written
   std::string unit;                                 // of the output; empty if the file names none
   std::size_t crossings = 0;                        // pairs of triangles that crossed each other at first
+  std::size_t collapsed_edges = 0;                  // short ones where triangles crossed, which became points
   std::size_t gap_triangles = 0, joined_nodes = 0;  // where OpenCASCADE's triangles left gaps
   std::vector<std::string> warnings;
 };

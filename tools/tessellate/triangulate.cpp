@@ -37,8 +37,8 @@
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/joined_sets.hpp"
 #include "common/run/error.hpp"
-#include "tools/tessellate/crossings.hpp"
 #include "tools/tessellate/face_gaps.hpp"
+#include "tools/tessellate/short_edges.hpp"
 
 namespace hexpipe::tessellate {
 namespace {
@@ -511,13 +511,7 @@ void Triangulator::keep_shape() {
 }
 
 void Triangulator::find_crossings(Attempt& attempt) const {
-  const formats::SurfaceSoup& surface = result_.surface;
-  for (const auto& [one, other] : crossing_triangles(surface.points, surface.triangles)) {
-    // Bodies that touch or overlap do so however fine they are.
-    const bool is_of_one_body = std::ranges::any_of(surface.sides[one], [&](std::int32_t region) {
-      return region != 0 && std::ranges::find(surface.sides[other], region) != surface.sides[other].end();
-    });
-    if (!is_of_one_body) continue;
+  for (const auto& [one, other] : crossings_of_bodies(result_.surface)) {
     ++attempt.crossings;
     for (const std::int32_t t : {one, other}) attempt.crossing_faces.Add(faces_.FindKey(face_of_triangle_[t]));
   }
@@ -583,6 +577,7 @@ Triangulation triangulate(const CadModel& model, const TriangulationOptions& opt
     if (attempt->crossings == 0) return std::move(attempt->made);
     crossing = attempt->crossing_faces;
   }
+  first.made.made_anew.collapsed = collapse_short_edges(first.made.surface, deviation);
   return std::move(first.made);
 }
 

@@ -21,6 +21,7 @@ struct TriangulationOptions {
 struct MadeAnew {
   std::size_t crossings = 0;  // pairs
   bool helped = false;        // to make triangles anew
+  std::size_t collapsed = 0;  // short edges whose collapse helped instead (short_edges.hpp)
 };
 
 struct Triangulation {
@@ -36,9 +37,9 @@ struct Triangulation {
 double default_size_of(const CadModel& model);
 
 // Where triangles of one body cross each other, those of their faces are made anew, finer; then all are, or, unless a
-// deviation is asked for, those of these faces and of those beside them coarser. If that does not help, the first
-// triangles stay. Throws DataError if a face cannot be triangulated, or its triangles leave a gap that cannot be
-// closed.
+// deviation is asked for, those of these faces and of those beside them coarser. If that does not help, edges of the
+// first triangles that are shorter than the deviation go; if that does not help either, these triangles stay. Throws
+// DataError if a face cannot be triangulated, or its triangles leave a gap that cannot be closed.
 Triangulation triangulate(const CadModel& model, const TriangulationOptions& options, const std::string& source);
 
 }  // namespace hexpipe::tessellate
