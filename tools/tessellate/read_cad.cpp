@@ -127,8 +127,7 @@ CadModel read_step(const std::string& bytes, const std::string& name, const std:
   std::istringstream stream(bytes);
   // OpenCASCADE seeks other files beside a whole path alone.
   const std::string place = path.empty() ? path : std::filesystem::absolute(path).string();
-  if (reader.ChangeReader().ReadStream(place.c_str(), stream) != IFSelect_RetDone)
-    throw DataError::at(name, "expected a STEP file, found one that OpenCASCADE cannot read: its syntax is wrong");
+  check_was_read(reader.ChangeReader().ReadStream(place.c_str(), stream), name);
   CadModel model;
   if (std::string faults = faulty_entities(reader.Reader().WS()); !faults.empty())
     model.warnings.push_back(std::move(faults));

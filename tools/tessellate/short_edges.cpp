@@ -16,10 +16,6 @@ namespace {
 // Each looks at all triangles. Slivers have few edges.
 constexpr int most_rounds = 32;
 
-bool has(const Triangle& t, Vertex v) {
-  return std::ranges::find(t, v) != t.end();
-}
-
 class Collapser {
  public:
   explicit Collapser(formats::SurfaceSoup surface) : surface_(std::move(surface)) {}
@@ -83,7 +79,7 @@ class Collapser {
         for (const Vertex v : surface_.triangles[i]) {
           if (v == ends[0] || v == ends[1]) continue;
           beside[end].insert(v);
-          if (has(surface_.triangles[i], ends[1 - end])) third.insert(v);
+          if (std::ranges::count(surface_.triangles[i], ends[1 - end]) > 0) third.insert(v);
         }
     std::vector<Vertex> common;
     std::ranges::set_intersection(beside[0], beside[1], std::back_inserter(common));

@@ -17,13 +17,13 @@
 #include <XSControl_TransferReader.hxx>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <set>
 #include <system_error>
 
 #include "common/run/error.hpp"
 #include "formats/streams/input.hpp"
+#include "formats/streams/text_scanner.hpp"
 #include "tools/tessellate/occt_names.hpp"
 
 namespace hexpipe::tessellate {
@@ -33,14 +33,12 @@ constexpr std::string_view step_end = "END-ISO-10303-21";
 // What OpenCASCADE takes references for; others it leaves out.
 constexpr std::array<std::string_view, 2> formats_read{"STEP AP203", "STEP AP214"};  // in capitals or not
 
-std::string in_lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool is_named_as_step(const std::string& file) {
-  const std::string name = in_lower_case(file);
-  return name.ends_with(".stp") || name.ends_with(".step") || name.ends_with(".p21");
+bool is_named_as_step(std::string_view file) {
+  constexpr std::array<std::string_view, 3> endings{".stp", ".step", ".p21"};
+  return std::ranges::any_of(endings, [&](std::string_view ending) {
+    return file.size() >= ending.size() &&
+           formats::equal_ignoring_case(file.substr(file.size() - ending.size()), ending);
+  });
 }
 
 // As OpenCASCADE finds it: from the folder of the file that was read.
@@ -54,10 +52,13 @@ std::string place_of(const std::string& file, const Handle(XSControl_WorkSession
   return place.IsEmpty() ? file : place.ToCString();
 }
 
+bool is_piped(const Handle(XSControl_WorkSession) & session) {
+  return *session->LoadedFile() == '\0';
+}
+
 class FileCheck {
  public:
-  FileCheck(bool is_first_piped, std::vector<std::string>& warnings)
-      : is_first_piped_(is_first_piped), warnings_(warnings) {}
+  explicit FileCheck(std::vector<std::string>& warnings) : warnings_(warnings) {}
 
   void check_references_of(const Handle(XSControl_WorkSession) & session, const std::string& name,
                            const std::string& place) {
@@ -78,9 +79,7 @@ class FileCheck {
              const Handle(XSControl_WorkSession) & session) {
     // Drawings and names in the program's own data base.
     if (!is_named_as_step(file)) return;
-    const auto is_format = [&](std::string_view known) {
-      return in_lower_case(std::string(known)) == in_lower_case(format);
-    };
+    const auto is_format = [&](std::string_view known) { return formats::equal_ignoring_case(known, format); };
     if (!format.empty() && std::ranges::none_of(formats_read, is_format))
       throw DataError::at(
           name, "OpenCASCADE reads no part of the format '{}' from another file, as '{}' is; it reads {} and {}",
@@ -89,24 +88,23 @@ class FileCheck {
     if (open_.contains(place))
       throw DataError::at(name, "expected parts in other files, found that '{}' refers back to itself", file);
     if (!done_.insert(place).second) return;
-    check_file(file, place, name);
-  }
-
-  void check_file(const std::string& file, const std::string& place, const std::string& name) {
     std::error_code error;
     if (!std::filesystem::exists(place, error))
       throw DataError::at(name, "expected its part '{}' beside it{}, found no such file", file,
-                          is_first_piped_ ? ", which is the current folder for standard input" : "");
+                          is_piped(session) ? ", which is the current folder for standard input" : "");
+    check_file(file, place);
+  }
+
+  void check_file(const std::string& file, const std::string& place) {
     check_end_of_step(formats::Input::open(place).read_all(), place);
+    // As OpenCASCADE will read it: packed, for example, it is of no use.
     STEPControl_Reader reader;
-    if (reader.ReadFile(place.c_str()) != IFSelect_RetDone)
-      throw DataError::at(place, "expected a STEP file, found one that OpenCASCADE cannot read: its syntax is wrong");
+    check_was_read(reader.ReadFile(place.c_str()), place);
     if (const std::string faults = faulty_entities(reader.WS()); !faults.empty())
       warnings_.push_back(fmt::format("{}: {}", file, faults));
     check_references_of(reader.WS(), place, place);
   }
 
-  bool is_first_piped_;
   std::vector<std::string>& warnings_;
   std::set<std::string> open_;  // files on the way from the first one
   std::set<std::string> done_;
@@ -117,6 +115,11 @@ class FileCheck {
 void check_end_of_step(std::string_view bytes, const std::string& name) {
   if (bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096)).rfind(step_end) == std::string_view::npos)
     throw DataError::at(name, "expected {}; at the end of a STEP file, found none: it is cut off", step_end);
+}
+
+void check_was_read(IFSelect_ReturnStatus status, const std::string& name) {
+  if (status != IFSelect_RetDone)
+    throw DataError::at(name, "expected a STEP file, found one that OpenCASCADE cannot read: its syntax is wrong");
 }
 
 std::string faulty_entities(const Handle(XSControl_WorkSession) & session) {
@@ -155,9 +158,8 @@ std::string lost_solids(const Handle(XSControl_WorkSession) & session) {
 
 void check_referenced_files(const Handle(XSControl_WorkSession) & session, const std::string& name,
                             std::vector<std::string>& warnings) {
-  const std::string path = session->LoadedFile();
-  FileCheck(path.empty(), warnings)
-      .check_references_of(session, name, path.empty() ? path : std::filesystem::weakly_canonical(path).string());
+  const std::string place = is_piped(session) ? "" : std::filesystem::weakly_canonical(session->LoadedFile()).string();
+  FileCheck(warnings).check_references_of(session, name, place);
 }
 
 }  // namespace hexpipe::tessellate

@@ -1,6 +1,7 @@
 #pragma once
 // What has to be right in a STEP file, and in the others in which an assembly keeps its parts.
 
+#include <IFSelect_ReturnStatus.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <string>
 #include <string_view>
@@ -11,6 +12,9 @@ namespace hexpipe::tessellate {
 // Throws DataError if the bytes do not end with the last word of a STEP file. Blanks and comments behind it do not
 // count.
 void check_end_of_step(std::string_view bytes, const std::string& name);
+
+// Throws DataError if OpenCASCADE could not read a STEP file.
+void check_was_read(IFSelect_ReturnStatus status, const std::string& name);
 
 // What a message says of entities of which OpenCASCADE cannot read all; empty if it could. It takes a default for what
 // it cannot read, 0 for a coordinate.
