@@ -405,8 +405,9 @@ PYTHON
   exec {writer}<>endless.step
   tessellate endless.step -o x.tar 2>crash.txt &
   local tool=$! code=0
-  # Until it handles SIGSEGV.
-  until ((0x$(awk '/^SigCgt/ {print $2}' "/proc/$tool/status") & 0x400)); do sleep 0.1; done
+  # Until it handles SIGSEGV, which the shell that it comes from does, too.
+  until [[ $(<"/proc/$tool/comm") == tessellate ]] &&
+    ((0x$(awk '/^SigCgt/ {print $2}' "/proc/$tool/status") & 0x400)); do sleep 0.1; done
   kill -SEGV "$tool"
   wait "$tool" || code=$?
   exec {writer}>&-

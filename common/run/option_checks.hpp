@@ -1,53 +1,53 @@
 #pragma once
 // Three things that CLI11 lacks: stricter checks of values (its ranges let NaN pass, and its unsigned integers wrap
-// around), a mark for options that stay out of the history, and groups of options that are declared together.
-
-#include <fmt/format.h>
+// around), a mark for options that stay out of the history, and groups of options that are declared together. And its
+// templates for the types that most options have, which are compiled once.
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
+
+// For each tool again they would take as long as all the rest of its main.cpp.
+extern template CLI::Option* CLI::App::add_option<std::string>(std::string, std::string&, std::string);
+extern template CLI::Option* CLI::App::add_option<std::vector<std::string>>(std::string, std::vector<std::string>&,
+                                                                            std::string);
+extern template CLI::Option* CLI::App::add_option<std::optional<std::string>>(std::string, std::optional<std::string>&,
+                                                                              std::string);
+extern template CLI::Option* CLI::App::add_option<double>(std::string, double&, std::string);
+extern template CLI::Option* CLI::App::add_option<std::optional<double>>(std::string, std::optional<double>&,
+                                                                         std::string);
+extern template CLI::Option* CLI::App::add_option<int>(std::string, int&, std::string);
+extern template CLI::Option* CLI::App::add_option<std::uint64_t>(std::string, std::uint64_t&, std::string);
+extern template CLI::Option* CLI::App::add_flag<bool>(std::string, bool&, std::string);
 
 namespace hexpipe {
 
 // Accepts a number in [low, high].
-inline CLI::Validator number_between(double low, double high) {
-  return CLI::Validator(
-      [low, high](const std::string& text) {
-        double value = 0;
-        const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        return good ? std::string() : fmt::format("expected a number from {:g} to {:g}, found {}", low, high, text);
-      },
-      "");
-}
+CLI::Validator number_between(double low, double high);
+
+// Accepts a whole number in [low, high], and says so in --help.
+CLI::Validator whole_number_between(std::int64_t low, std::int64_t high);
 
 // Accepts an unsigned integer of 64 bits in decimal digits.
-inline CLI::Validator whole_number_of_64_bits() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        std::uint64_t value = 0;
-        const char* const last = text.data() + text.size();
-        const auto [end, error] = std::from_chars(text.data(), last, value);
-        const bool good = error == std::errc() && end == last;
-        return good ? std::string() : fmt::format("expected a whole number from 0 to {}, found {}", UINT64_MAX, text);
-      },
-      "");
-}
+CLI::Validator whole_number_of_64_bits();
 
 // Accepts a size of memory that CLI11 has turned into bytes. A small number is one whose unit was forgotten.
-inline CLI::Validator enough_memory() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        std::uint64_t bytes = 0;
-        const bool good = CLI::detail::lexical_cast(text, bytes);
-        if (good && bytes >= std::uint64_t{1} << 20 && bytes <= std::uint64_t{1} << 62) return std::string();
-        if (good && bytes > 0 && bytes < 1024)
-          return fmt::format("expected at least 1M, found {} bytes; {}G are {} gibibytes", text, text, text);
-        return fmt::format("expected at least 1M, such as 8G, found {}", text);
-      },
-      "");
+CLI::Validator enough_memory();
+
+// Accepts one of these words, which --help lists.
+CLI::Validator one_of(std::vector<std::string> words);
+
+// The words are the keys.
+template <class Value>
+CLI::Validator one_of(const std::map<std::string, Value>& values) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : values) words.push_back(word);
+  return one_of(std::move(words));
 }
 
 // Groups of --help that several tools have. It lists `first` first, then a tool's own groups, then the others.

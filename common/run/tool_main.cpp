@@ -71,7 +71,7 @@ void declare_graph_file(CLI::App& app, GraphFileOptions& options) {
   begin_group(app, group::input);
   app.add_option("--graph-format", options.format,
                  "The format of a graph file [its first bytes tell; METIS if they do not]")
-      ->check(CLI::IsMember({"metis", "dimacs", "matrix-market", "edges"}));
+      ->check(one_of({"metis", "dimacs", "matrix-market", "edges"}));
   app.add_option("--weight-scale", options.weight_scale,
                  "Multiply the weights of a graph file, which may be any numbers, by this, then round")
       ->check(number_between(1e-300, 1e300));
@@ -89,25 +89,24 @@ void declare_mesh_output(CLI::App& app, Role product, MeshOptions& mesh) {
                      "code-aster: names of 24 characters; dealii: no facets between regions"))
       ->group(product == Role::result ? group::first : group::output)
       ->type_name("NAME")
-      ->check(CLI::IsMember(std::vector<std::string>{"calculix", "abaqus", "openfoam", "su2", "nastran", "moose",
-                                                     "code-aster", "dealii"}));
+      ->check(one_of({"calculix", "abaqus", "openfoam", "su2", "nastran", "moose", "code-aster", "dealii"}));
   outside_history(
       app.add_option(
           "--pyramids", mesh.pyramids,
           "How other formats get pyramids: keep; collapsed: as hexes with the apex four times (.inp); split: as two "
           "tets each, of second order as four"))
       ->type_name("FORM")
-      ->check(CLI::IsMember(std::vector<std::string>{"keep", "collapsed", "split"}));
+      ->check(one_of({"keep", "collapsed", "split"}));
   outside_history(app.add_option("--hex-element", mesh.hex_element, "The type of hexes in .inp: C3D8, C3D8I or C3D8R"))
       ->type_name("TYPE")
-      ->check(CLI::IsMember(std::vector<std::string>{"C3D8", "C3D8I", "C3D8R"}));
+      ->check(one_of({"C3D8", "C3D8I", "C3D8R"}));
   outside_history(
       app.add_option(
           "--polyhedra", mesh.polyhedra,
           "In a polyMesh, mend: where OpenFOAM's checkMesh finds fault, cells are halved or merge to polyhedra, "
           "vertices move, and flat cells at the boundary are left out; none: cells stay as they are [mend]"))
       ->type_name("HOW")
-      ->check(CLI::IsMember(std::vector<std::string>{"mend", "none"}));
+      ->check(one_of({"mend", "none"}));
   outside_history(app.add_flag("--no-facets", mesh.no_facets,
                                "Leave facets out of other formats, for readers that take only cells"));
 }
@@ -155,7 +154,7 @@ void declare_common(CLI::App& app, RunContext& context) {
   const ToolInfo& info = context.info;
   begin_group(app, group::run);
   outside_history(app.add_option("--threads", common.threads, "Threads to use; 0: all that the machine has"))
-      ->check(CLI::Range(0, 4096))
+      ->check(whole_number_between(0, 4096))
       ->capture_default_str();
   outside_history(
       app.add_option("--memory", common.memory, "Use at most this much memory, such as 8G [what the machine has left]"))
@@ -178,7 +177,7 @@ void declare_common(CLI::App& app, RunContext& context) {
         ->check(number_between(0, 1e9));
     app.add_option("--iterations", common.iterations, "Stop after this many iterations")
         ->type_name("N")
-        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 62).description(""));
+        ->check(whole_number_between(0, std::int64_t{1} << 62).description(""));
     outside_history(
         app.add_option("--log", common.log_file,
                        "Write the course of the search to a file, one JSON object per line; '-': to standard output"))

@@ -8,7 +8,7 @@ FLAGS = """--headless --no-sandbox --disable-gpu --disable-quic --no-first-run -
     --hide-scrollbars""".split()
 
 
-def start(profile, downloads=None, window="980,800"):
+def start(profile, downloads=None, window="800,640"):
     """A browser with a profile of its own. Software draws each pixel: half the window, half the processor time."""
     options = Options()
     options.binary_location = "/usr/bin/chromium"

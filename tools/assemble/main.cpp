@@ -59,37 +59,38 @@ void declare_options(CLI::App& app, CommandLine& line) {
   begin_group(app, "Cells");
   app.add_option("--conformity", line.conformity,
                  "pyramids: every quad has a cell on its other side; none: quads may face two triangles")
-      ->check(CLI::IsMember(conformities))
+      ->check(one_of(conformities))
       ->capture_default_str();
   line.exchange_option =
       app.add_option("--exchange", line.exchange,
                      "quads: exchanges chosen hexes for other candidates, by volume and quality, less a cost for each "
                      "quad that faces tets; none: keeps the choice. none always holds with --conformity none and with "
                      "--neighbours, and is the default for a graph of buildgraph --quad-reward")
-          ->check(CLI::IsMember(exchanges))
+          ->check(one_of(exchanges))
           ->capture_default_str();
   line.fill_option =
       app.add_option("--fill", line.fill,
                      "prisms: makes prisms of tets between the cells where they close at least as many quads as they "
                      "open; none: keeps the tets. none always holds with --conformity none and with --neighbours")
-          ->check(CLI::IsMember(fills))
+          ->check(one_of(fills))
           ->capture_default_str();
   line.merge_option =
-      app.add_option("--merge", line.merge,
-                     "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
-                     "this leaves fewer or better cells; none: keeps them. none always holds with --conformity none and "
-                     "with --smooth 0")
-          ->check(CLI::IsMember(merges))
+      app.add_option(
+             "--merge", line.merge,
+             "vertices: vertices that no hex uses merge, and rooms between the hexes are filled anew, where "
+             "this leaves fewer or better cells; none: keeps them. none always holds with --conformity none and "
+             "with --smooth 0")
+          ->check(one_of(merges))
           ->capture_default_str();
   app.add_option("--mend", line.mend,
                  "quality: the worst cells between the hexes become better at the end; finite-volumes: then what "
                  "OpenFOAM's checkMesh counts as wrong is mended, too, for a few more cells. Goes with --merge "
                  "vertices [finite-volumes with --solver openfoam or for a polyMesh, otherwise quality]")
-      ->check(CLI::IsMember(mends));
+      ->check(one_of(mends));
   app.add_option("--smooth", line.smooth,
                  "Rounds of moving vertices and flipping tets to make the worst cells better and hexes larger; 0: none")
       ->group(group::first)
-      ->check(CLI::Range(0, 1000))
+      ->check(whole_number_between(0, 1000))
       ->capture_default_str();
   outside_history(
       app.add_option(
@@ -102,12 +103,12 @@ void declare_options(CLI::App& app, CommandLine& line) {
   app.add_option("--order", line.order,
                  "2: elements have nodes in the middles of their edges, which bend with the surface, as far as the "
                  "Jacobian is shown to be positive everywhere; 1: straight edges, corners alone")
-      ->check(CLI::Range(1, 2))
+      ->check(whole_number_between(1, 2))
       ->capture_default_str();
   line.nodes_option = app.add_option("--nodes", line.nodes,
                                      "With --order 2, serendipity: nodes on edges (hexes of 20); full: in the middles "
                                      "of quads and hexes, too (hexes of 27)")
-                          ->check(CLI::IsMember({"serendipity", "full"}))
+                          ->check(one_of({"serendipity", "full"}))
                           ->capture_default_str();
   line.surface_option =
       outside_history(

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
            "--weight", weight,
            "The weight of a candidate: quality, volume, count (1 each), quality*volume, or quality^0.3*volume as "
            "assemble's exchange weighs hexes, which suits --quad-reward")
-        ->check(CLI::IsMember(weights));
+        ->check(one_of(weights));
     app.add_option(
            "--quad-reward", options.quad_reward,
            "Rewards chosen candidates that share quads: each quad inside the mesh that only one chosen candidate has "

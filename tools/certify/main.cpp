@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
         app.add_flag("--exact", exact, "Go on to prove optimality; that bound has no certificate");
     app.add_option("--algorithm", algorithm, "The algorithm of --exact")
         ->group("Proof")
-        ->check(CLI::IsMember(mwis::exact_algorithms()))
+        ->check(one_of(mwis::exact_algorithms()))
         ->needs(with_exact);
   };
   const auto run = [&](RunContext& context) {

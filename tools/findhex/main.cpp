@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
               part = "1/1";
   const auto declare = [&](CLI::App& app) {
     app.add_option("--cells", cells, "The kinds of cells to find: hex, prism, pyramid, separated by commas")
-        ->check(CLI::IsMember(kinds))
+        ->check(one_of(kinds))
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--min-quality", options.min_quality, "Every corner must have a scaled Jacobian greater than this")
@@ -42,27 +42,27 @@ int main(int argc, char** argv) {
     begin_group(app, "Cells");
     app.add_option("--quality", quality,
                    "The quality to store: the least scaled Jacobian of the corners, or of the whole element")
-        ->check(CLI::IsMember(qualities));
+        ->check(one_of(qualities));
     app.add_option("--inner-vertices", inner_vertices, "allow or forbid: vertices of the mesh strictly inside a cell")
-        ->check(CLI::IsMember({"allow", "forbid"}));
+        ->check(one_of({"allow", "forbid"}));
     app.add_option(
            "--folded-quads", folded_quads,
            "drop or keep: quads whose two triangles in the mesh fold over each other, or lie on both sides of a "
            "sharp edge of the surface")
-        ->check(CLI::IsMember({"drop", "keep"}));
+        ->check(one_of({"drop", "keep"}));
     feature_angle =
         app.add_option("--feature-angle", options.feature_angle,
                        "Edges of the surface are sharp where it turns by more; MEDIT's Ridges are so anyway")
             ->check(number_between(0, 180));
     app.add_option("--flat-corners", flat_corners,
                    "reject or keep: cells that would leave a flat pyramid at the surface")
-        ->check(CLI::IsMember({"reject", "keep"}));
+        ->check(one_of({"reject", "keep"}));
     app.add_option("--part", part, "i/k: only cells that begin in share i of k of the vertices; see Makefile.examples")
         ->group("In parts");
     app.add_option("--max-boundary-tets", options.tet_rules.max_boundary_tets,
                    "The most slivers that a cell may have on its quads; less to compare with searches that know none")
         ->group(group::experts)
-        ->check(CLI::Range(0, 6).description(""));
+        ->check(whole_number_between(0, 6).description(""));
   };
   const auto run = [&](RunContext& context) {
     if (folded_quads == "keep" && feature_angle->count() > 0)

@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
     app.add_option("--effort", effort,
                    "quick: seconds for the choice of hexes; thorough: minutes, also for a search for better points")
         ->group(group::first)
-        ->check(CLI::IsMember(efforts));
+        ->check(one_of(efforts));
     begin_group(app, "Stages");
     app.add_option("--mesh", options.mesh, "Tets of another program, instead of a surface")->type_name("FILE");
     app.add_option("--keep", options.keep, "Keep what each stage makes in this folder, as NAME.tar")

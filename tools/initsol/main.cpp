@@ -64,29 +64,29 @@ void declare_tabu_search(CLI::App& app, CommandLine& line) {
       app.add_option("--escape", line.escape,
                      "Tabu search: the way out of local optima: restart at random, rebuild from the vertices that "
                      "moved least, or go back to the best solution; try another one where --log shows no gain for long")
-          ->check(CLI::IsMember(escapes)),
+          ->check(one_of(escapes)),
       app.add_option("--tenure", tabu.tenure,
                      "Tabu search: a vertex that was pushed out stays out for this many moves, or up to twice as many; "
                      "less for graphs of few hundred vertices")
-          ->check(CLI::Range(0, 1000000000).description("")),
+          ->check(whole_number_between(0, 1000000000).description("")),
       app.add_option("--patience", tabu.patience, "Tabu search: moves without a better solution before the way out")
-          ->check(CLI::Range(1, 1000000000).description(""))};
+          ->check(whole_number_between(1, 1000000000).description(""))};
 }
 
 void declare(CLI::App& app, CommandLine& line) {
   begin_group(app, "Search");
   app.add_option("--greedy", line.order, "Greedy takes first: high weight, high weight / (degree + 1), or high quality")
-      ->check(CLI::IsMember(orders));
+      ->check(one_of(orders));
   app.add_option("--method", line.method,
                  "The search after greedy: simulated annealing over local optima, tabu search, or a descent to the "
                  "next optimum")
       ->group(group::first)
-      ->check(CLI::IsMember(methods));
+      ->check(one_of(methods));
   declare_annealing(app, line);
   declare_tabu_search(app, line);
   begin_group(app, "Search");
   app.add_option("--starts", line.options.starts, "Run searches from this many starts, and recombine their results")
-      ->check(CLI::Range(1, 1000).description(""));
+      ->check(whole_number_between(1, 1000).description(""));
   app.add_flag("!--no-reductions", line.options.reduce,
                "Search the whole graph, not what exact reductions and the solution of small components leave");
 }

@@ -62,18 +62,18 @@ int main(int argc, char** argv) {
     app.add_option("--blocks", options.blocks,
                    "Blocks to cut the graph into, at least one for each rank; 0: one for each 50000 vertices, and "
                    "without --iterations the same number for each rank")
-        ->check(CLI::Range(0, 1000000).description(""));
+        ->check(whole_number_between(0, 1000000).description(""));
     app.add_option("--overlap", options.overlap,
                    "How many edges beyond its border a block may change the solution; 0: 2, but without --iterations 1 "
                    "where a rank has less than 20000 vertices")
-        ->check(CLI::Range(0, 16).description(""));
+        ->check(whole_number_between(0, 16).description(""));
     round = app.add_option("--round", options.rounds.fragments_a_round,
                            "Fragments of a round for each thousand vertices, with --iterations");
-    round->check(CLI::Range(1, 1000000).description(""));
+    round->check(whole_number_between(1, 1000000).description(""));
     begin_group(app, "Proof");
     CLI::Option* const prove = app.add_option(
         "--prove", options.passes, "Prove a bound after the search, in this many passes of the dual; 0: no bound");
-    prove->check(CLI::Range(0, 1000000).description(""));
+    prove->check(whole_number_between(0, 1000000).description(""));
     outside_history(app.add_option("--certificate", options.certificate,
                                    "Write the proof to a file, as certify does; for a graph that is not in parts"))
         ->type_name("FILE")

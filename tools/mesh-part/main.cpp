@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   const auto declare = [&](CLI::App& app) {
     app.add_option("--parts", options.parts, "How many parts of about as many tets")
         ->required()
-        ->check(CLI::Range(1, most_parts));
+        ->check(whole_number_between(1, most_parts));
     outside_history(
         app.add_option("-o,--output", options.directory, "The directory for part-0000.tar and so on; it is made"))
         ->required()

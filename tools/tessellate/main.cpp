@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
         ->check(number_between(1, 60));
     app.add_option("--unit", options.unit, "Write lengths in metres or millimetres [the file's own unit]")
         ->group(group::first)
-        ->check(CLI::IsMember({"m", "mm"}));
+        ->check(one_of({"m", "mm"}));
     app.add_flag("--join", options.join, "Let bodies that touch share their common faces, edges and corners");
     app.add_flag(
         "--keep-baffles", options.keep_baffles,

@@ -135,11 +135,11 @@ int main(int argc, char** argv) {
                    "If given: thin walls get at least N elements across (2 without N)")
         ->expected(0, 1)
         ->default_str("2")
-        ->check(CLI::Range(1, 100))
+        ->check(whole_number_between(1, 100))
         ->type_name("[N]");
     begin_group(app, "Surface");
     app.add_option("--surface", surface_kind, "The surface's triangles: made anew to suit hexes, or kept")
-        ->check(CLI::IsMember(surface_kinds));
+        ->check(one_of(surface_kinds));
     app.add_option(
            "--feature-angle", options.feature_angle,
            "Edges where the surface turns by more than this, in degrees, are kept, and corners where they turn by more")
@@ -171,16 +171,17 @@ int main(int argc, char** argv) {
                    "Most points inside, to protect memory; more for a mesh that has to be that large")
         ->group(group::experts)
         ->check(number_between(1, 1e9));
-    app.add_option("--tries", options.tries,
-                   "How many sizes to try, up to 5 % off; the mesh that is estimated to have most hexes is kept [1; 3 of "
-                   "tetmesh's own size, or less where nearly all becomes hexes]")
-        ->check(CLI::Range(std::size_t{1}, most_tries));
+    app.add_option(
+           "--tries", options.tries,
+           "How many sizes to try, up to 5 % off; the mesh that is estimated to have most hexes is kept [1; 3 of "
+           "tetmesh's own size, or less where nearly all becomes hexes]")
+        ->check(whole_number_between(1, most_tries));
     app.add_option("--improve", options.improve,
                    "Rounds of a search that moves, adds and removes points where that brings hexes; a round "
                    "takes five runs of TetGen")
         ->group(group::first)
         ->type_name("ROUNDS")
-        ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}).description(""));
+        ->check(whole_number_between(0, 1000000).description(""));
     app.add_option("--time-limit", options.time_limit, "With --improve: stop the search after this many seconds")
         ->type_name("SECONDS")
         ->check(number_between(0, 1e9));
@@ -205,12 +206,12 @@ int main(int argc, char** argv) {
         ->type_name("LENGTH")
         ->capture_default_str();
     app.add_option("--largest-hole", options.largest_hole, "With --repair: most edges of a hole that is filled")
-        ->check(CLI::Range(0, 1000));
+        ->check(whole_number_between(0, 1000));
     app.add_option("--shells", shells,
                    "Shells inside shells: holes if they point inward and regions otherwise; all regions; or holes and "
                    "regions in "
                    "turn")
-        ->check(CLI::IsMember(shell_rules));
+        ->check(one_of(shell_rules));
     app.add_option("--tags-by-angle", options.tag_angle,
                    "If given: smooth parts of the surface without a name get tags of their own; they end at edges that "
                    "turn by more "
@@ -264,7 +265,8 @@ int main(int argc, char** argv) {
     product.dislocations = std::move(result.dislocations);
     stage.write(product, to_json(result.statistics));
   };
-  // For its many steps, each with arrays of its own. Other tools gain nothing, and buildgraph takes a fifth more memory.
+  // For its many steps, each with arrays of its own. Other tools gain nothing, and buildgraph takes a fifth more
+  // memory.
   reuse_freed_memory();
   std::vector<char*> words = words_for_parsing(argc, argv);
   return tool_main(argc, words.data(), info, declare, run);

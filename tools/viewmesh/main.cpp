@@ -64,11 +64,11 @@ int main(int argc, char** argv) {
         ->delimiter(',')
         ->expected(2)
         ->allow_extra_args(false)
-        ->check(CLI::Range(16, 8192).description(""));
+        ->check(whole_number_between(16, 8192).description(""));
     app.add_option("--show", options.show,
                    "The stage to show: result, solution, candidates or mesh [the last one in the bundle]")
         ->type_name("WHAT")
-        ->check(CLI::IsMember(contents));
+        ->check(one_of(contents));
     app.add_option("--view", options.view,
                    "The view of page and picture, as the page's links have it after the #, for example "
                    "'clip=y:0.5&colour=quality&theme=dark' (man viewmesh has all keys)")
