@@ -37,7 +37,7 @@ endif()
 if(HEXPIPE_UNITY)
   # Between the files of one unit there is nothing to see: the other builds compile each by itself and look. And a template
   # may stand before lanes.hpp, which says that its arguments are no concern of other programs.
-  target_compile_options(hexpipe_flags INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage -Wno-psabi>)
+  target_compile_options(hexpipe_flags INTERFACE -Wno-shadow -Wno-psabi $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   # g++ looks for memory that it can use again only from this many kB on, not from 128 MB on, which is a tenth of its time.
   target_compile_options(hexpipe_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 endif()

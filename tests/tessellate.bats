@@ -91,7 +91,6 @@ PYTHON
   assert_output True
 }
 
-# thin NAME INNER: NAME.step, a cylinder of the radius 10 with a cylinder of the radius INNER as a hole in it.
 # Where two edges of a face run into a tip, their polygons cross within the tolerance of the edges.
 @test "gaps that OpenCASCADE leaves at tips of faces are closed" {
   # By OpenCASCADE's own integration over the CAD's faces.
@@ -110,6 +109,26 @@ PYTHON
   done
 }
 
+# A cone that is cut open along a seam, and a face between two edges that are one within their tolerance.
+@test "faces of which OpenCASCADE makes no triangles are filled or become nothing" {
+  # Of the frustum between circles of 1.45 and 1.85, and of the box.
+  local -A volumes=([frustum]=3.43797 [sliver]=480)
+  local part
+  for part in frustum sliver; do
+    run_apart tessellate "$DATA/$part.brep" -o "$part.tar" --stats "$part.json"
+    assert_success
+    assert_equal "$stderr" ""
+    assert_equal "$(surface "$part.tar" 'open_edges()')" 0
+    run surface "$part.tar" "abs(volume() / ${volumes[$part]} - 1) < 1e-3"
+    assert_output True
+    holds "$part['crossings'] == 0" "$part.json"
+    if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then tetmesh -q "$part.tar" -o mesh.tar; fi
+  done
+  # Circles of 143 nodes, and none between them.
+  holds "frustum['points'] < 300" frustum.json
+}
+
+# thin NAME INNER: NAME.step, a cylinder of the radius 10 with a cylinder of the radius INNER as a hole in it.
 thin() {
   cat >"$1.geo" <<END
 SetFactory("OpenCASCADE");

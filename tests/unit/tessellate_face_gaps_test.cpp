@@ -7,6 +7,7 @@
 #include <TopoDS.hxx>
 #include <cmath>
 #include <gp_Ax3.hxx>
+#include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
 #include <gp_Pln.hxx>
 #include <map>
@@ -137,6 +138,31 @@ TEST(FillGaps, LeavesOpenWhatGoesRoundTheFace) {
     border.emplace_back(2 * ((i + 1) % 16) + 1, 2 * i + 1);
   }
   EXPECT_FALSE(fill_gaps(face, border, {}, nodes, 0.1).are_closed);
+}
+
+// A seam has its nodes twice. Between circles with different numbers of nodes edges lean, and the middle of one is
+// beside that of its parameters, but not off the cone.
+TEST(FillGaps, GoesRoundTheFaceFromASeamToItself) {
+  const double slope = std::numbers::pi / 4;
+  const TopoDS_Face face =
+      BRepBuilderAPI_MakeFace(gp_Cone(gp_Ax3(), slope, 1.5), 0, 2 * std::numbers::pi, 0, 0.5 / std::cos(slope)).Face();
+  std::vector<Vec3> nodes;
+  const auto add_circle = [&](int count, double radius, double height) {
+    for (int i = 0; i <= count; ++i) {
+      const double at = (height > 0 ? count - i : i) * 2 * std::numbers::pi / count;
+      nodes.push_back({radius * std::cos(at), radius * std::sin(at), height});
+    }
+  };
+  add_circle(54, 1.5, 0);
+  add_circle(61, 2, 0.5);
+  const FilledGaps filled = fill_gaps(face, around(static_cast<std::int32_t>(nodes.size())), {}, nodes, 0.005);
+  EXPECT_TRUE(filled.are_closed);
+  EXPECT_THAT(filled.joins, IsEmpty());
+  EXPECT_THAT(filled.nodes, IsEmpty());
+  EXPECT_EQ(filled.triangles.size(), 54 + 61);
+  double area = 0;
+  for (const auto& [a, b, c] : filled.triangles) area += 0.5 * norm(cross(nodes[b] - nodes[a], nodes[c] - nodes[a]));
+  EXPECT_NEAR(area, std::numbers::pi * (1.5 + 2) * 0.5 / std::cos(slope), 0.01 * area);
 }
 
 }  // namespace

@@ -302,6 +302,17 @@ class GapFiller {
     return {p.X(), p.Y(), p.Z()};
   }
 
+  // How far a point is from the surface's tangent plane at a place near it. Along the plane it may be further away:
+  // parameters do not go on like lengths.
+  double distance_from(const gp_Pnt2d& place, const Vec3& point) {
+    gp_Pnt at;
+    gp_Vec along_u, along_v;
+    surface_.Surface()->D1(place.X(), place.Y(), at, along_u, along_v);
+    const gp_Vec offset(at, gp_Pnt(point.x, point.y, point.z)), normal = along_u.Crossed(along_v);
+    const double length = normal.Magnitude();
+    return length > 0 ? std::abs(offset.Dot(normal)) / length : offset.Magnitude();
+  }
+
   // Cuts inner edges whose middle is too far from the face; false if triangles stay too far from it.
   bool refine(std::vector<Triangle>& triangles) {
     using Edge = VertexKey<2>;
@@ -325,11 +336,10 @@ class GapFiller {
       const std::vector<std::size_t> beside = at_edge[edge];
       if (beside.size() != 2) continue;
       const gp_Pnt2d between((parameters_[edge[0]].XY() + parameters_[edge[1]].XY()) / 2);
-      const Vec3 middle = on_surface(between);
-      if (norm(middle - 0.5 * (nodes_[edge[0]] + nodes_[edge[1]])) <= reach_) continue;
+      if (distance_from(between, 0.5 * (nodes_[edge[0]] + nodes_[edge[1]])) <= reach_) continue;
       if (nodes_.size() - given_ >= most_new_nodes) return false;
       const auto node = static_cast<std::int32_t>(nodes_.size());
-      nodes_.push_back(middle);
+      nodes_.push_back(on_surface(between));
       parameters_[node] = between;
       for (const std::size_t t : beside) {
         unlink(t);
@@ -343,7 +353,7 @@ class GapFiller {
     }
     return std::ranges::all_of(triangles, [&](const Triangle& t) {
       const gp_Pnt2d between((parameters_[t[0]].XY() + parameters_[t[1]].XY() + parameters_[t[2]].XY()) / 3);
-      return norm(on_surface(between) - (1.0 / 3) * (nodes_[t[0]] + nodes_[t[1]] + nodes_[t[2]])) <= reach_;
+      return distance_from(between, (1.0 / 3) * (nodes_[t[0]] + nodes_[t[1]] + nodes_[t[2]])) <= reach_;
     });
   }
 

@@ -5,14 +5,17 @@
 
 #include <fmt/format.h>
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
 #include <BRepLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
+#include <BRepTools_WireExplorer.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <GCPnts_TangentialDeflection.hxx>
 #include <GProp_GProps.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
@@ -23,6 +26,7 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,6 +34,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -77,6 +82,20 @@ void for_edges_around(const TopoDS_Face& face, Visit&& visit) {
     const TopAbs_Orientation turn = part.Current().Orientation();
     if (turn == TopAbs_FORWARD || turn == TopAbs_REVERSED) visit(TopoDS::Edge(part.Current()));
   }
+}
+
+// Those of a wire around the face, each beginning where the one before it ends; none if some are in no such order.
+std::vector<TopoDS_Edge> edges_in_order(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+  std::vector<TopoDS_Edge> edges;
+  for (BRepTools_WireExplorer part(wire, face); part.More(); part.Next()) edges.push_back(part.Current());
+  if (edges.size() != static_cast<std::size_t>(wire.NbChildren())) edges.clear();
+  return edges;
+}
+
+bool has_triangles(const TopoDS_Face& face) {
+  TopLoc_Location place;
+  const auto triangles = BRep_Tool::Triangulation(face, place);
+  return !triangles.IsNull() && triangles->NbTriangles() > 0;
 }
 
 // A step between nodes that are given in the edge's own order.
@@ -139,12 +158,14 @@ class Triangulator {
   void add_body(std::size_t body);
   void add_face(const TopoDS_Face& face, std::int32_t region);
   void add_empty_face(const TopoDS_Face& face, std::int32_t region);
+  std::int32_t copy_of(std::int32_t node);
+  std::vector<std::int32_t> nodes_along(const TopoDS_Edge& edge, const TopoDS_Face& face, std::int32_t region);
   void add_triangles(const TopoDS_Face& face, const std::vector<NodeEdge>& border, std::vector<Triangle> triangles,
                      bool is_mirrored, std::int32_t region);
   [[noreturn]] void fail_at(const TopoDS_Face& face, std::int32_t region) const;
   void add_nodes(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles, const TopLoc_Location& place,
                  std::int32_t first);
-  void join_edge(const TopoDS_Edge& edge, const Handle(Poly_PolygonOnTriangulation) & polygon, std::int32_t first);
+  void join_edge(const TopoDS_Edge& edge, std::vector<std::int32_t> nodes);
   void close_tips();
   void add_curves();
   void number_points();
@@ -275,22 +296,61 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
 // A face of which OpenCASCADE has made no triangles gets some between the nodes of its neighbours.
 void Triangulator::add_empty_face(const TopoDS_Face& face, std::int32_t region) {
   std::vector<NodeEdge> border;
-  for_edges_around(face, [&](const TopoDS_Edge& edge) {
-    if (BRep_Tool::Degenerated(edge)) return;
-    const auto known = nodes_of_edge_.find(faces_of_edge_.FindIndex(edge));
-    if (known == nodes_of_edge_.end()) fail_at(face, region);
-    const std::vector<std::int32_t>& nodes = known->second;
-    for (std::size_t i = 1; i < nodes.size(); ++i)
-      border.push_back(along(edge, same_.of(nodes[i - 1]), same_.of(nodes[i])));
-  });
+  const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  for (TopExp_Explorer part(forward, TopAbs_WIRE); part.More(); part.Next()) {
+    const std::vector<TopoDS_Edge> edges = edges_in_order(TopoDS::Wire(part.Current()), forward);
+    if (edges.empty()) fail_at(face, region);
+    std::vector<std::int32_t> loop;
+    for (const TopoDS_Edge& edge : edges) {
+      if (BRep_Tool::Degenerated(edge)) continue;
+      const std::vector<std::int32_t> nodes = nodes_along(edge, face, region);
+      loop.insert(loop.end(), nodes.begin(), nodes.end() - 1);
+    }
+    // A seam has its nodes on both sides of it.
+    std::set<std::int32_t> met;
+    for (std::int32_t& node : loop)
+      if (!met.insert(node).second) node = copy_of(node);
+    for (std::size_t i = 0; i < loop.size(); ++i) border.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
+  }
   add_triangles(face, border, {}, face.Location().Transformation().IsNegative(), region);
+}
+
+std::int32_t Triangulator::copy_of(std::int32_t node) {
+  nodes_.push_back(nodes_[node]);
+  const std::int32_t copy = same_.add();
+  same_.join(node, copy);
+  return copy;
+}
+
+// Nodes of an edge of a face without triangles, in the edge's direction, each by the lowest of its numbers. Where no
+// face has triangles at the edge, they are made here.
+std::vector<std::int32_t> Triangulator::nodes_along(const TopoDS_Edge& edge, const TopoDS_Face& face,
+                                                    std::int32_t region) {
+  const int number = faces_of_edge_.FindIndex(edge);
+  if (!nodes_of_edge_.contains(number)) {
+    for (const TopoDS_Shape& beside : faces_of_edge_.FindFromIndex(number))
+      if (has_triangles(TopoDS::Face(beside))) fail_at(face, region);
+    const BRepAdaptor_Curve curve(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)));
+    const GCPnts_TangentialDeflection points(curve, radians(options_.angle), result_.deviation);
+    std::vector<std::int32_t> nodes;
+    for (Standard_Integer i = 1; i <= points.NbPoints(); ++i) {
+      const gp_Pnt p = points.Value(i);
+      nodes_.push_back({p.X(), p.Y(), p.Z()});
+      nodes.push_back(same_.add());
+    }
+    join_edge(edge, std::move(nodes));
+  }
+  std::vector<std::int32_t> nodes = nodes_of_edge_.at(number);
+  for (std::int32_t& node : nodes) node = same_.of(node);
+  if (edge.Orientation() != TopAbs_FORWARD) std::ranges::reverse(nodes);
+  return nodes;
 }
 
 // With those that are missing. They are turned as the face's surface is.
 void Triangulator::add_triangles(const TopoDS_Face& face, const std::vector<NodeEdge>& border,
                                  std::vector<Triangle> triangles, bool is_mirrored, std::int32_t region) {
   const FilledGaps gaps = fill_gaps(face, border, triangles, nodes_, result_.deviation);
-  if (triangles.empty() && gaps.triangles.empty()) fail_at(face, region);
+  if (triangles.empty() && gaps.triangles.empty() && gaps.joins.empty()) fail_at(face, region);
   if (!gaps.are_closed)
     throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g})", region,
                         title_of(face), gaps.place.x, gaps.place.y, gaps.place.z);
@@ -331,14 +391,15 @@ void Triangulator::add_nodes(const TopoDS_Face& face, const Handle(Poly_Triangul
   for (TopExp_Explorer part(face, TopAbs_EDGE); part.More(); part.Next()) {
     const TopoDS_Edge edge = TopoDS::Edge(part.Current());
     const auto polygon = BRep_Tool::PolygonOnTriangulation(edge, triangles, place);
-    if (!polygon.IsNull()) join_edge(edge, polygon, first);
+    if (polygon.IsNull()) continue;
+    std::vector<std::int32_t> nodes;
+    for (Standard_Integer i = 1; i <= polygon->NbNodes(); ++i) nodes.push_back(first + polygon->Node(i) - 1);
+    join_edge(edge, std::move(nodes));
   }
 }
 
-void Triangulator::join_edge(const TopoDS_Edge& edge, const Handle(Poly_PolygonOnTriangulation) & polygon,
-                             std::int32_t first) {
-  std::vector<std::int32_t> nodes;
-  for (Standard_Integer i = 1; i <= polygon->NbNodes(); ++i) nodes.push_back(first + polygon->Node(i) - 1);
+// `nodes` are those of one face at the edge, in the edge's own order.
+void Triangulator::join_edge(const TopoDS_Edge& edge, std::vector<std::int32_t> nodes) {
   const auto join_vertex = [&](const TopoDS_Vertex& vertex, std::int32_t node) {
     if (vertex.IsNull()) return;
     auto& known = node_of_vertex_[vertex.TShape().get()];
