@@ -242,6 +242,21 @@ END
   assert_equal "$(surface tower.tar 'sides.max(), round(volume(), 9)')" "(5, 20.0)"
 }
 
+@test "--body takes bodies by name or number, and leaves out the others" {
+  step many
+  cp -r "$DATA/stand" .
+  tessellate stand/stand.step --body post -o posts.tar
+  assert_equal "$(surface posts.tar 'names["regions"], sides.max(), round(volume(), 9)')" "({'1': 'post', '2': 'post'}, 2, 4.0)"
+  tessellate stand/stand.step --body 3 --body base -o two.tar
+  assert_equal "$(surface two.tar 'names["regions"], round(volume(), 9)')" "({'1': 'base', '2': 'post'}, 14.0)"
+  local missing
+  for missing in 4 0 03 -1 Base ''; do
+    assert_fails_with 1 "stand.step: expected a body of the name or number '$missing' \(--body\), found 3 bodies: 'base', 'post'$" \
+      tessellate stand/stand.step --body "$missing"
+  done
+  assert_fails_with 1 "found 500 bodies: 'body 1', .*, 'body 10' and others$" tessellate many.step --body 501
+}
+
 @test "a part of an assembly that cannot be read is an error, and so are files that refer to each other in a circle" {
   cp "$DATA"/stand/* .
   mv post.stp other.stp

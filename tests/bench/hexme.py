@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""hexme.py FOLDER [--only WORD] [--size S] [--search SECONDS] [--threads N] - CAD models through the whole pipeline.
+"""hexme.py FOLDER [--only WORD] [--size S] [--search SECONDS] [--threads N] [--join] - CAD models through the whole pipeline.
 
 Runs each .step, .stp and .brep below FOLDER, and each .geo where gmsh is installed (OpenCASCADE models only), through
 tessellate | tetmesh | findhex | buildgraph | initsol | lns | assemble at tetmesh's own size, and prints a table: the share of
@@ -41,7 +41,7 @@ def run(command, limit=None):
 
 def cad_of(path, folder):
     """The model as tessellate takes it."""
-    if not path.endswith(".geo"):
+    if not path.lower().endswith(".geo"):
         return path
     target = os.path.join(folder, "model.brep")
     if os.path.exists(target):
@@ -58,7 +58,8 @@ def mesh(path, folder, args):
     tool = lambda name: os.path.join(BIN, name)
     threads = ["--threads", str(args.threads)] if args.threads else []
     size = ["--size", args.size] if args.size else []
-    warnings = run([tool("tessellate"), cad_of(path, folder), "-o", file("surface.tar")], args.limit)[1]
+    join = ["--join"] if args.join else []
+    warnings = run([tool("tessellate"), cad_of(path, folder), *join, "-o", file("surface.tar")], args.limit)[1]
     warnings += run([tool("tetmesh"), file("surface.tar"), *size, *threads, "--stats", file("tetmesh.json"), "-o", file("mesh.tar")], args.limit)[1]
     run([tool("findhex"), file("mesh.tar"), *threads, "-o", file("candidates.tar")], args.limit)
     run([tool("buildgraph"), file("candidates.tar"), *threads, "-o", file("graph.tar")], args.limit)
@@ -87,14 +88,15 @@ def main():
     parser.add_argument("--size", help="tetmesh's --size [its own]")
     parser.add_argument("--search", type=float, default=10, help="seconds of initsol, and of lns")
     parser.add_argument("--threads", type=int, help="of each tool")
+    parser.add_argument("--join", action="store_true", help="bodies that touch share their faces")
     parser.add_argument("--limit", type=float, default=1800, help="seconds after which a stage is given up")
     args = parser.parse_args()
     found = sorted(os.path.join(folder, name) for folder, _, names in os.walk(args.folder) for name in names
-                   if name.endswith(ENDINGS) and args.only in name)
+                   if name.lower().endswith(ENDINGS) and args.only in name)
     if not found:
         sys.exit(f"{args.folder}: no {', '.join(ENDINGS)}")
     if not shutil.which("gmsh"):
-        found = [path for path in found if not path.endswith(".geo")]
+        found = [path for path in found if not path.lower().endswith(".geo")]
     print("| model | hexes | volume % | number % | least hex | least other | off by (sizes) | regions | cpu s | |")
     print("|---|---|---|---|---|---|---|---|---|---|", flush=True)
     rows = []

@@ -63,6 +63,10 @@ CadModel read_cad(formats::Input& input);
 // closed.
 void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model);
 
+// Leaves those bodies that have one of these names or, where none has it, numbers (from 1, in the order of the file),
+// which then are numbered anew. Throws DataError for a name that is neither.
+void keep_bodies(const std::vector<std::string>& wanted, const std::string& source, CadModel& model);
+
 // Heals the bodies that OpenCASCADE finds faulty, with a warning.
 void heal_bodies(CadModel& model);
 

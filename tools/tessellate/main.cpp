@@ -43,6 +43,10 @@ int main(int argc, char** argv) {
                    "How far triangles may be from the CAD's surface [a hundredth of the size that tetmesh chooses]")
         ->check(number_between(1e-12, 1e12))
         ->type_name("LENGTH");
+    app.add_option("--body", options.bodies,
+                   "Take only the body of this name, or number in the file's order; repeatable [all]")
+        ->allow_extra_args(false)
+        ->type_name("NAME");
     begin_group(app, "Triangles");
     app.add_option("--angle", options.angle, "How far neighbours may turn on a smooth face, in degrees")
         ->check(number_between(1, 60));

@@ -1,6 +1,7 @@
 #include "tools/tessellate/cad_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepBndLib.hxx>
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gp_Pnt.hxx>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -47,6 +49,19 @@ std::string counted(int count, const char* noun) {
 
 std::string counted_bodies(std::size_t count) {
   return count == 1 ? "1 body" : fmt::format("{} bodies", count);
+}
+
+// How many there are, and the first names.
+std::string bodies_by_name(const CadModel& model) {
+  std::vector<std::string> names;
+  for (const CadBody& body : model.bodies)
+    if (!body.name.empty() && std::ranges::find(names, body.name) == names.end()) names.push_back(body.name);
+  std::string text = counted_bodies(model.bodies.size());
+  if (names.empty()) return text + " without names";
+  constexpr std::size_t most_names = 10;
+  const bool are_all = names.size() <= most_names;
+  if (!are_all) names.resize(most_names);
+  return fmt::format("{}: '{}'{}", text, fmt::join(names, "', '"), are_all ? "" : " and others");
 }
 
 double diagonal_of(const TopoDS_Shape& shape) {
@@ -152,6 +167,24 @@ void find_sheets(const TopoDS_Shape& whole, CadModel& model) {
     model.sheets.push_back(face.Current());
 }
 
+void keep_bodies(const std::vector<std::string>& wanted, const std::string& source, CadModel& model) {
+  std::vector<bool> is_kept(model.bodies.size());
+  for (const std::string& name : wanted) {
+    bool is_found = false;
+    for (std::size_t i = 0; i < model.bodies.size(); ++i)
+      if (!name.empty() && model.bodies[i].name == name) is_found = is_kept[i] = true;
+    for (std::size_t i = 0; i < model.bodies.size() && !is_found; ++i)
+      if (std::to_string(i + 1) == name) is_found = is_kept[i] = true;
+    if (!is_found)
+      throw DataError::at(source, "expected a body of the name or number '{}' (--body), found {}", name,
+                          bodies_by_name(model));
+  }
+  std::vector<CadBody> kept;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (is_kept[i]) kept.push_back(std::move(model.bodies[i]));
+  model.bodies = std::move(kept);
+}
+
 void heal_bodies(CadModel& model) {
   std::size_t healed = 0, faulty = 0;
   for (CadBody& body : model.bodies) {
@@ -224,8 +257,10 @@ void join_bodies(const std::string& source, CadModel& model) {
     carry(body.solid);
     for (const TopoDS_Shape& part : parts_of(body.solid, fuse)) {
       if (!seen.Add(part))
-        throw DataError::at(source, "expected bodies that touch at most, found some that overlap; the second is '{}'",
-                            body.name.empty() ? fmt::format("{}", &body - model.bodies.data() + 1) : body.name);
+        throw DataError::at(
+            source,
+            "expected bodies that touch at most, found some that overlap; the second is '{}' (--body takes one alone)",
+            body.name.empty() ? fmt::format("{}", &body - model.bodies.data() + 1) : body.name);
       joined.push_back({part, body.name});
     }
   }

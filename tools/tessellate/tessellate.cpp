@@ -56,6 +56,7 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
   TessellateResult result;
   try {
     step.emplace("checking bodies", 0.4, 0.6);
+    if (!options.bodies.empty()) keep_bodies(options.bodies, input.name(), model);
     heal_bodies(model);
     if (!options.keep_baffles) leave_out_sheets(model);
     if (options.join || options.keep_baffles) join_bodies(input.name(), model);

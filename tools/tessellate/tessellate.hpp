@@ -16,6 +16,7 @@ struct TessellateOptions {
   std::optional<double> deviation = {};  // in the units that are written; nothing: a hundredth of tetmesh's size
   double angle = 15;                     // degrees
   std::optional<std::string> unit = {};  // m or mm; nothing: the file's own
+  std::vector<std::string> bodies = {};  // names or numbers of those that are wanted; nothing: all
   bool keep_baffles = false;             // faces inside that bound no body
   bool join = false;                     // bodies that touch share their common faces, edges and vertices
 };
