@@ -35,9 +35,8 @@ if(HEXPIPE_SANITIZE)
 endif()
 
 if(HEXPIPE_UNITY)
-  # Between the files of one unit there is nothing to see: the other builds compile each by itself and look. And a template
-  # may stand before lanes.hpp, which says that its arguments are no concern of other programs.
-  target_compile_options(hexpipe_flags INTERFACE -Wno-shadow -Wno-psabi $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # Between the files of one unit there is nothing to see: the other builds compile each by itself and look.
+  target_compile_options(hexpipe_flags INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   # g++ looks for memory that it can use again only from this many kB on, not from 128 MB on, which is a tenth of its time.
   target_compile_options(hexpipe_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 endif()
@@ -56,7 +55,7 @@ function(hexpipe_library name)
   add_library(${name} STATIC ${arg_SOURCES})
   target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PUBLIC hexpipe_flags ${arg_LINK})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ${HEXPIPE_UNITY} UNITY_BUILD_BATCH_SIZE 40)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${HEXPIPE_UNITY} UNITY_BUILD_BATCH_SIZE 20)
   if(HEXPIPE_UNITY)
     target_precompile_headers(${name} REUSE_FROM library_headers)
   endif()

@@ -40,18 +40,18 @@ constexpr std::string_view refused_keywords[] = {"NGEN",  "NFILL",  "NCOPY",   "
                                                  "ELGEN", "ELCOPY", "INCLUDE", "SYSTEM"};
 
 // Corners of the faces S1, S2, ... as the manual numbers them, outward; -1: a triangle.
-using LocalFace = std::array<int, 4>;
+using Face = std::array<int, 4>;
 struct Faces {
   std::uint8_t vtk;
-  std::vector<LocalFace> faces;
+  std::vector<Face> faces;
 };
-const std::vector<LocalFace>& faces_of(std::uint8_t vtk) {
+const std::vector<Face>& faces_of(std::uint8_t vtk) {
   static const std::vector<Faces> list{
       {10, {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}}},
       {12, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
       {13, {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
       {14, {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}}};
-  static const std::vector<LocalFace> none;
+  static const std::vector<Face> none;
   const auto found = std::ranges::find(list, vtk, &Faces::vtk);
   return found == list.end() ? none : found->faces;
 }
@@ -465,7 +465,7 @@ class AbaqusReader {
   }
 
   void add_side(const Element& element, const SurfaceSide& side, ElementGroup& triangles, ElementGroup& quads) const {
-    const std::vector<LocalFace>& faces = faces_of(element.vtk);
+    const std::vector<Face>& faces = faces_of(element.vtk);
     std::size_t face = side.face;
     // A pyramid as a hex: its sides are the hex's 3 to 6, and 2 is nothing.
     if (collapsed_.contains(element.number)) {
@@ -475,7 +475,7 @@ class AbaqusReader {
     if (faces.empty()) return;
     if (face >= faces.size())
       fail(side.line, fmt::format("expected a face up to S{}, found S{}", faces.size(), face + 1));
-    const LocalFace& corners = faces[face];
+    const Face& corners = faces[face];
     ElementGroup& group = corners[3] < 0 ? triangles : quads;
     for (const int corner : corners)
       if (corner >= 0) group.corners.push_back(element.corners[static_cast<std::size_t>(corner)]);

@@ -25,7 +25,7 @@ namespace {
 
 // Archives may swell: models of more bytes, and components in components that place more, are refused.
 constexpr std::size_t most_model_bytes = std::size_t{1} << 31;
-constexpr std::size_t usual_swelling = 250, harmless_model_bytes = std::size_t{1} << 28;
+constexpr std::size_t usual_swelling = 250, harmless_bytes = std::size_t{1} << 28;
 constexpr std::size_t most_placed = 100'000, most_triangles_placed = 100'000'000, most_points_placed = 300'000'000;
 constexpr std::size_t most_name_bytes = std::size_t{1} << 28;
 constexpr int most_levels = 32;
@@ -136,7 +136,7 @@ std::string part_key(std::string_view name) {
   return key;
 }
 
-Package unpack_package(std::string_view bytes, const std::string& name) {
+Package unpack(std::string_view bytes, const std::string& name) {
   const std::unique_ptr<archive, ArchiveEnd> zip(archive_read_new());
   if (!zip) throw std::bad_alloc();
   const auto fail = [&]() {
@@ -146,7 +146,7 @@ Package unpack_package(std::string_view bytes, const std::string& name) {
   archive_read_support_format_zip(zip.get());
   if (archive_read_open_memory(zip.get(), bytes.data(), bytes.size()) != ARCHIVE_OK) fail();
   Package package;
-  const std::size_t most = std::min(most_model_bytes, std::max(harmless_model_bytes, usual_swelling * bytes.size()));
+  const std::size_t most = std::min(most_model_bytes, std::max(harmless_bytes, usual_swelling * bytes.size()));
   std::size_t total = 0;
   std::array<char, 1 << 16> chunk;
   for (archive_entry* entry = nullptr;;) {
@@ -189,7 +189,7 @@ double millimetres_in(std::string_view unit, const std::string& file) {
 
 class ThreemfReader {
  public:
-  ThreemfReader(std::string_view bytes, const std::string& name) : file_(name), package_(unpack_package(bytes, name)) {}
+  ThreemfReader(std::string_view bytes, const std::string& name) : file_(name), package_(unpack(bytes, name)) {}
 
   SurfaceSoup read() {
     Model& root = root_model();
