@@ -170,12 +170,14 @@ void find_sheets(const TopoDS_Shape& whole, CadModel& model) {
 void keep_bodies(const std::vector<std::string>& wanted, const std::string& source, CadModel& model) {
   std::vector<bool> is_kept(model.bodies.size());
   for (const std::string& name : wanted) {
-    bool is_found = false;
-    for (std::size_t i = 0; i < model.bodies.size(); ++i)
-      if (!name.empty() && model.bodies[i].name == name) is_found = is_kept[i] = true;
-    for (std::size_t i = 0; i < model.bodies.size() && !is_found; ++i)
-      if (std::to_string(i + 1) == name) is_found = is_kept[i] = true;
-    if (!is_found)
+    const auto keep_where = [&](auto&& is_meant) {
+      bool is_found = false;
+      for (std::size_t i = 0; i < model.bodies.size(); ++i)
+        if (is_meant(i)) is_found = is_kept[i] = true;
+      return is_found;
+    };
+    if (!keep_where([&](std::size_t i) { return !name.empty() && model.bodies[i].name == name; }) &&
+        !keep_where([&](std::size_t i) { return std::to_string(i + 1) == name; }))
       throw DataError::at(source, "expected a body of the name or number '{}' (--body), found {}", name,
                           bodies_by_name(model));
   }

@@ -92,10 +92,10 @@ std::vector<TopoDS_Edge> edges_in_order(const TopoDS_Wire& wire, const TopoDS_Fa
   return edges;
 }
 
-bool has_triangles(const TopoDS_Face& face) {
-  TopLoc_Location place;
-  const auto triangles = BRep_Tool::Triangulation(face, place);
-  return !triangles.IsNull() && triangles->NbTriangles() > 0;
+// Null if OpenCASCADE has made none; they lie at `place`.
+Handle(Poly_Triangulation) triangles_of(const TopoDS_Face& face, TopLoc_Location& place) {
+  const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
+  return triangles.IsNull() || triangles->NbTriangles() == 0 ? Handle(Poly_Triangulation)() : triangles;
 }
 
 // A step between nodes that are given in the edge's own order.
@@ -272,8 +272,8 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
     return;
   }
   TopLoc_Location place;
-  const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
-  if (triangles.IsNull() || triangles->NbTriangles() == 0) return empty_faces_.push_back(face);
+  const Handle(Poly_Triangulation) triangles = triangles_of(face, place);
+  if (triangles.IsNull()) return empty_faces_.push_back(face);
   const auto first = static_cast<std::int32_t>(nodes_.size());
   const auto numbered = [&](Standard_Integer node) { return first + node - 1; };
   add_nodes(face, triangles, place, first);
@@ -328,8 +328,9 @@ std::vector<std::int32_t> Triangulator::nodes_along(const TopoDS_Edge& edge, con
                                                     std::int32_t region) {
   const int number = faces_of_edge_.FindIndex(edge);
   if (!nodes_of_edge_.contains(number)) {
+    TopLoc_Location place;
     for (const TopoDS_Shape& beside : faces_of_edge_.FindFromIndex(number))
-      if (has_triangles(TopoDS::Face(beside))) fail_at(face, region);
+      if (!triangles_of(TopoDS::Face(beside), place).IsNull()) fail_at(face, region);
     const BRepAdaptor_Curve curve(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)));
     const GCPnts_TangentialDeflection points(curve, radians(options_.angle), result_.deviation);
     std::vector<std::int32_t> nodes;
