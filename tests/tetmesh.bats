@@ -586,6 +586,44 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   assert_failure
 }
 
+# A block with a step 0.03 high.
+@test "--short-features takes out a step that is too low for the size, and the poor cells at it" {
+  cat >step.obj <<'EOF'
+v 0 0 0
+v 4 0 0
+v 4 2 0
+v 2 2 0
+v 2 2.03 0
+v 0 2.03 0
+v 0 0 4
+v 4 0 4
+v 4 2 4
+v 2 2 4
+v 2 2.03 4
+v 0 2.03 4
+f 1 2 8 7
+f 2 3 9 8
+f 3 4 10 9
+f 4 5 11 10
+f 5 6 12 11
+f 6 1 7 12
+f 6 5 4 3 2 1
+f 7 8 9 10 11 12
+EOF
+  # mesh OPTIONS...: writes stats.json and cells.json
+  mesh() {
+    tetmesh -q step.obj --size 0.5 "$@" --stats stats.json | findhex -q | buildgraph -q | initsol -q | lns -q |
+      assemble -q -o step.vtu --stats cells.json
+  }
+  only_hexes='all(kind == "hex" or of["count"] == 0 for kind, of in cells["cells"].items())'
+  mesh --short-features 0.05 # it is longer
+  holds "stats['short_features'] == 0 and not ($only_hexes)" stats.json cells.json
+  mesh --short-features 0.08
+  holds "stats['short_features'] == 2 and $only_hexes and cells['cells']['hex']['count'] == 256" stats.json cells.json
+  holds 'stats["surface_remeshed"] and 0.029 < stats["distance_from_input"] < 0.0301' stats.json
+  assert_fails_with 2 "^tetmesh: .*short-features" tetmesh step.obj --short-features 0.3
+}
+
 # bats test_tags=optimized
 @test "--stretch joins rows on faces with features, as far as it may" {
   local part="$DATA/plate-holes.stl"
@@ -684,6 +722,7 @@ assert d['at_singularities'] + d['closed'] <= d['length'], d"
   refused --least-size "without --curvature" --least-size 0.1
   refused --grading "without --size-field, --layers, --curvature or a --size at a place" --grading 0.1
   refused --deviation "with --surface keep" --surface keep --deviation 0.1
+  refused --short-features "with --surface keep" --surface keep --short-features 0.05
   refused --stretch "with --surface keep" --surface keep --stretch 0.5
   for points in none own.xyz; do
     refused --jitter "with --points $points" --points $points --jitter 0.1

@@ -11,6 +11,7 @@
 #include "surface_samples.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
 #include "tools/tetmesh/solid/shells.hpp"
+#include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
@@ -59,6 +60,14 @@ inline tetmesh::surface::RemeshResult remesh_surface(const Surface& surface,
   while (remesher.make() && !remesher.judge()) {
   }
   return remesher.take();
+}
+
+// The greatest distance of a point of either surface from the other, at samples a hundredth apart.
+inline double distance_between(const Surface& a, const Surface& b) {
+  using namespace tetmesh::surface;
+  const DistanceIndex of_a(a.points, a.triangles), of_b(b.points, b.triangles);
+  return std::max(one_sided_distance(a.points, a.triangles, of_b, 0.01, 1).greatest,
+                  one_sided_distance(b.points, b.triangles, of_a, 0.01, 1).greatest);
 }
 
 // By a look at every triangle.

@@ -8,7 +8,6 @@
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
 #include "tools/tetmesh/surface/remesh_steps.hpp"
-#include "tools/tetmesh/surface/surface_distance.hpp"
 
 namespace hexpipe {
 using namespace formats;
@@ -17,6 +16,7 @@ using namespace tetmesh::surface;
 namespace {
 
 using testing::cube;
+using testing::distance_between;
 using testing::Facets;
 using testing::joined;
 using testing::remesh_surface;
@@ -24,12 +24,6 @@ using testing::sphere;
 using testing::surface_of;
 
 constexpr double sharp_angle = 40;
-
-double distance_between(const Surface& a, const Surface& b) {
-  const DistanceIndex of_a(a.points, a.triangles), of_b(b.points, b.triangles);
-  return std::max(one_sided_distance(a.points, a.triangles, of_b, 0.01, 1).greatest,
-                  one_sided_distance(b.points, b.triangles, of_a, 0.01, 1).greatest);
-}
 
 // As a scanner measures it.
 Facets with_noise(Facets facets, double noise) {

@@ -148,6 +148,9 @@ int main(int argc, char** argv) {
            "--deviation", options.deviation,
            "How far the new surface may be from the old one, in sizes; in walls thinner than a size, in thicknesses")
         ->check(number_between(1e-6, 1));
+    app.add_option("--short-features", options.short_features,
+                   "Features shorter or narrower than this, in sizes, go, and the poor cells at them; 0: none")
+        ->check(number_between(0, 0.2));
     app.add_option(
            "--stretch", options.row_stretch,
            "How much rows of points may stretch so that fewer end on faces: from one triangle of the field to the "

@@ -15,6 +15,7 @@
 #include "common/run/progress.hpp"
 #include "tools/tetmesh/sizing/sizing.hpp"
 #include "tools/tetmesh/solid/model_axes.hpp"
+#include "tools/tetmesh/surface/short_features.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 #include "tools/tetmesh/tetgen/run_tetgen.hpp"
 #include "tools/tetmesh/volume/estimates.hpp"
@@ -78,6 +79,8 @@ class Mesher {
  private:
   // Returns false where no new surface can be made; the warning says why.
   bool mesh_new_surface();
+  // Returns why it failed, or nothing. What is remeshed has to outlive the remesher.
+  std::string remesh(const solid::Surface& shape, const surface::RemeshOptions& options);
   void mesh_given_surface();
   void place_points();
   void try_frame_points();
@@ -107,6 +110,7 @@ class Mesher {
   std::vector<std::string> warnings_;
   StepWatch watch_;
 
+  std::optional<surface::JoinedFeatures> joined_;  // what is remeshed in place of the given surface
   std::optional<surface::SurfaceRemesher> remesher_;
   std::optional<surface::RemeshResult> remeshed_;
   std::optional<surface::RemeshResult> followed_;  // the one whose points are those of the lattice inside
@@ -147,17 +151,35 @@ MeshedSurface Mesher::mesh() {
           std::move(dislocations_)};
 }
 
-// TetGen works on the new surface while this thread judges that surface. TetGen may fail on the new surface and not on
-// the given one, because their points differ.
 bool Mesher::mesh_new_surface() {
   // A deviation in sizes is small beside the model, unless a wall is thinner than a size: then the wall's thickness
   // counts.
-  const bool walls_count = !demand_.layers && !surface::asks_for_too_many_points(given_, size_);
-  sizing::SizeDemand one_layer = demand_;
-  one_layer.layers = 1;
-  const sizing::SizeField unit = walls_count ? sizing::field_of(given_, std::move(one_layer)) : size_;
-  surface::SurfaceRemesher& remesher = remesher_.emplace(
-      given_, surface::RemeshOptions{size_, options_.feature_angle, options_.deviation, unit, options_.row_stretch});
+  surface::RemeshOptions remeshing{size_, options_.feature_angle, options_.deviation, {}, options_.row_stretch};
+  const bool asks_for_too_many = surface::asks_for_too_many_points(given_, size_);
+  const auto make = [&](const solid::Surface& shape) {
+    if (!demand_.layers && !asks_for_too_many) {
+      sizing::SizeDemand one_layer = demand_;
+      one_layer.layers = 1;
+      remeshing.unit = sizing::field_of(shape, std::move(one_layer));
+    }
+    return remesh(shape, remeshing);
+  };
+  if (options_.short_features > 0 && !asks_for_too_many)
+    joined_ = surface::join_short_features(given_, options_.feature_angle, options_.short_features * size_);
+  if (joined_ && make(joined_->surface).empty()) return true;
+  if (joined_) warnings_.push_back("short features stay: without them no new surface is good enough");
+  joined_.reset();
+  const std::string failure = make(given_);
+  if (!failure.empty())
+    warnings_.push_back(
+        fmt::format("the surface is {}: {}", given_.has_sheets ? "only cut to the size" : "kept as it is", failure));
+  return failure.empty();
+}
+
+// TetGen works on the new surface while this thread judges that surface. TetGen may fail on the new surface and not on
+// the given one, because their points differ.
+std::string Mesher::remesh(const solid::Surface& shape, const surface::RemeshOptions& options) {
+  surface::SurfaceRemesher& remesher = remesher_.emplace(given_, shape, options);
   const auto make = [&] {
     const Step step("making new triangles for the surface", 0, surface_ends);
     return remesher.make();
@@ -181,15 +203,10 @@ bool Mesher::mesh_new_surface() {
   watch_.add_to(statistics_.seconds.remeshing);
   remeshed_ = remesher.take();
   statistics_.surfaces_tried = remeshed_->attempts;
-  if (built_) {
-    surface_ = &remeshed_->surface;
-    describe(*remeshed_);
-  } else {
-    warnings_.push_back(fmt::format("the surface is {}: {}",
-                                    given_.has_sheets ? "only cut to the size" : "kept as it is",
-                                    failure.empty() ? remeshed_->failure : failure));
-  }
-  return built_.has_value();
+  if (!built_) return failure.empty() ? remeshed_->failure : failure;
+  surface_ = &remeshed_->surface;
+  describe(*remeshed_);
+  return {};
 }
 
 void Mesher::mesh_given_surface() {
@@ -369,6 +386,7 @@ std::optional<tetgen::BuiltMesh> Mesher::tetrahedralize(const solid::Surface& su
 
 void Mesher::describe(const surface::RemeshResult& remeshed) {
   statistics_.remeshed = true;
+  statistics_.short_features = joined_ ? joined_->count : 0;
   statistics_.distance_to_input = remeshed.to_input;
   statistics_.distance_from_input = remeshed.from_input;
   statistics_.extra_points = remeshed.extra_points;

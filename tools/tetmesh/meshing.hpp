@@ -19,7 +19,7 @@ namespace hexpipe::tetmesh {
 
 struct MeshingOptions {
   bool remesh = true;  // false: the surface's triangles stay
-  double feature_angle, deviation, row_stretch;
+  double feature_angle, deviation, short_features, row_stretch;
   PointKind points;
   const formats::PointList& given_points;  // for PointKind::given
   double clearance;                        // in sizes

@@ -45,7 +45,7 @@ void refuse_idle_options(const std::function<bool(const char*)>& is_given, const
     refuse({"--grading"}, "without --size-field, --layers, --curvature or a --size at a place");
   if (!options.sizes.curvature) refuse({"--least-size"}, "without --curvature");
   if (options.improve == 0) refuse({"--time-limit"}, "without --improve");
-  if (keeps) refuse({"--deviation", "--stretch"}, "with --surface keep");
+  if (keeps) refuse({"--deviation", "--short-features", "--stretch"}, "with --surface keep");
   if (!places) refuse({"--clearance", "--jitter", "--improve"}, "with --points " + points);
   if (keeps && !places) refuse({"--feature-angle"}, "with --surface keep and --points " + points);
   // With points of the user's own, these options say how near to the surface the points may be.

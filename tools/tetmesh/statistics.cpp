@@ -25,6 +25,7 @@ nlohmann::ordered_json to_json(const TetmeshStatistics& s) {
                               {"distance_to_input", s.distance_to_input},
                               {"distance_from_input", s.distance_from_input},
                               {"extra_points", s.extra_points},
+                              {"short_features", s.short_features},
                               {"shells", s.shells},
                               {"regions", s.regions},
                               {"points_kept", name_of(s.points_kept)},

@@ -41,6 +41,7 @@ struct TetmeshStatistics {
   int surfaces_tried = 0;                                 // until one was as promised
   double distance_to_input = 0, distance_from_input = 0;  // Hausdorff distances between the new surface and the input
   std::size_t extra_points = 0;                           // vertices of the input that could not be removed
+  std::size_t short_features = 0;                         // vertices of the input that went with features too short
   std::size_t shells = 0, regions = 0;
   std::size_t interior_points = 0;  // asked for
   std::optional<solid::RepairReport> repair;

@@ -145,6 +145,7 @@ MeshingOptions meshing_options(const TetmeshOptions& o, bool estimates) {
   return {o.surface == SurfaceKind::remesh,
           o.feature_angle,
           o.deviation,
+          o.short_features,
           o.row_stretch,
           o.points,
           o.given_points,

@@ -67,8 +67,9 @@ bool has_within(const geometry::SizedPointGrid& grid, const Vec3& place, double 
 
 class SurfaceRemesher::Work {
  public:
-  Work(const solid::Surface& surface, const RemeshOptions& options)
+  Work(const solid::Surface& given, const solid::Surface& surface, const RemeshOptions& options)
       : given_(surface),
+        reported_(given),
         size_(options.size),
         deviation_(options.deviation * options.unit.value_or(options.size)),
         row_stretch_(options.row_stretch),
@@ -97,6 +98,7 @@ class SurfaceRemesher::Work {
     CloseWatch too_far;
   };
   Faults find_faults();
+  void measure_from_reported();
   std::vector<Vec3> find_gaps() const;
   void keep_nearest(std::span<const Vec3> places, const sizing::SizeField& reach);
   void hold_around(std::span<const Vec3> places, const sizing::SizeField& reach);
@@ -115,6 +117,7 @@ class SurfaceRemesher::Work {
   };
 
   const solid::Surface& given_;
+  const solid::Surface& reported_;  // from which distances are reported
   sizing::SizeField size_, deviation_;
   double row_stretch_;
   bool is_prepared_ = false;
@@ -147,6 +150,7 @@ bool SurfaceRemesher::Work::make() {
 
 bool SurfaceRemesher::Work::judge() {
   const Faults faults = find_faults();
+  if (result.failure.empty() && &reported_ != &given_) measure_from_reported();
   const auto& [places, too_far] = faults;
   // A point may come again; that only takes time.
   append(watch_.left_behind, too_far.left_behind);
@@ -321,6 +325,20 @@ SurfaceRemesher::Work::Faults SurfaceRemesher::Work::find_faults() {
   return faults;
 }
 
+void SurfaceRemesher::Work::measure_from_reported() {
+  const sizing::SizeField spacing = sample_spacing * size_, no_limit = sizing::bounding_box_diagonal(reported_);
+  both_at_once(
+      [&] {
+        const DistanceIndex there(reported_.points, reported_.triangles);
+        result.to_input =
+            one_sided_distance(result.surface.points, result.surface.triangles, there, spacing, no_limit).greatest;
+      },
+      [&] {
+        const DistanceIndex here(result.surface.points, result.surface.triangles);
+        result.from_input = one_sided_distance(reported_.points, reported_.triangles, here, spacing, no_limit).greatest;
+      });
+}
+
 void SurfaceRemesher::Work::keep_nearest(std::span<const Vec3> places, const sizing::SizeField& reach) {
   if (places.empty()) return;
   geometry::SizedPointGrid removable(places.front()), fresh(places.front());
@@ -368,8 +386,9 @@ void SurfaceRemesher::Work::hold_around(std::span<const Vec3> places, const sizi
   }
 }
 
-SurfaceRemesher::SurfaceRemesher(const solid::Surface& surface, const RemeshOptions& options)
-    : work_(new Work(surface, options)) {}
+SurfaceRemesher::SurfaceRemesher(const solid::Surface& given, const solid::Surface& surface,
+                                 const RemeshOptions& options)
+    : work_(new Work(given, surface, options)) {}
 
 SurfaceRemesher::~SurfaceRemesher() = default;
 

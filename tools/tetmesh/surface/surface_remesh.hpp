@@ -39,8 +39,11 @@ struct RemeshResult {
 // surface before it is judged. It never throws because of the surface: if no new surface is as promised, it says so.
 class SurfaceRemesher {
  public:
-  // The input must outlive it.
-  SurfaceRemesher(const solid::Surface& surface, const RemeshOptions& options);
+  // `surface` is the given one, or that without its short features, and must outlive it, as the given one must. The new
+  // surface keeps its distance from `surface`; the result has that from the given one.
+  SurfaceRemesher(const solid::Surface& given, const solid::Surface& surface, const RemeshOptions& options);
+  SurfaceRemesher(const solid::Surface& surface, const RemeshOptions& options)
+      : SurfaceRemesher(surface, surface, options) {}
   ~SurfaceRemesher();
 
   // Makes the first surface, or the next one after a faulty one. Returns false if there is nothing left to try.
