@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""hexme.py FOLDER [--only WORD] [--size S] [--search SECONDS] [--threads N] [--join] - CAD models through the whole pipeline.
+"""hexme.py FOLDER [--only WORD] [--size S] [--search SECONDS] [--threads N] [--join] [--short-features X] - CAD models through the whole pipeline.
 
 Runs each .step, .stp and .brep below FOLDER, and each .geo where gmsh is installed (OpenCASCADE models only), through
 tessellate | tetmesh | findhex | buildgraph | initsol | lns | assemble at tetmesh's own size, and prints a table: the share of
@@ -59,8 +59,9 @@ def mesh(path, folder, args):
     threads = ["--threads", str(args.threads)] if args.threads else []
     size = ["--size", args.size] if args.size else []
     join = ["--join"] if args.join else []
+    short = ["--short-features", args.short_features] if args.short_features else []
     warnings = run([tool("tessellate"), cad_of(path, folder), *join, "-o", file("surface.tar")], args.limit)[1]
-    warnings += run([tool("tetmesh"), file("surface.tar"), *size, *threads, "--stats", file("tetmesh.json"), "-o", file("mesh.tar")], args.limit)[1]
+    warnings += run([tool("tetmesh"), file("surface.tar"), *size, *short, *threads, "--stats", file("tetmesh.json"), "-o", file("mesh.tar")], args.limit)[1]
     run([tool("findhex"), file("mesh.tar"), *threads, "-o", file("candidates.tar")], args.limit)
     run([tool("buildgraph"), file("candidates.tar"), *threads, "-o", file("graph.tar")], args.limit)
     run([tool("initsol"), file("graph.tar"), *threads, "--time-limit", str(args.search), "-o", file("first.tar")], args.limit)
@@ -89,6 +90,7 @@ def main():
     parser.add_argument("--search", type=float, default=10, help="seconds of initsol, and of lns")
     parser.add_argument("--threads", type=int, help="of each tool")
     parser.add_argument("--join", action="store_true", help="bodies that touch share their faces")
+    parser.add_argument("--short-features", help="tetmesh's --short-features [0]")
     parser.add_argument("--limit", type=float, default=1800, help="seconds after which a stage is given up")
     args = parser.parse_args()
     found = sorted(os.path.join(folder, name) for folder, _, names in os.walk(args.folder) for name in names
@@ -113,7 +115,7 @@ def main():
         seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         rows.append(row)
         note = "; ".join(w.split("warning: ", 1)[-1].split(": ", 1)[-1] for w in row["warnings"])
-        print(f"| {name} | {row['hexes']} | {row['volume']:.1f} | {row['number']:.1f} | {row['least_hex']:.2f} | {row['least_other']:.2f} "
+        print(f"| {name} | {row['hexes']} | {row['volume']:.1f} | {row['number']:.1f} | {row['least_hex']:.2f} | {row['least_other']:.3f} "
               f"| {row['deviation']:.2f} | {row['regions']} | {seconds:.0f} | {note} |", flush=True)
     mean = lambda key: sum(row[key] for row in rows) / max(1, len(rows))
     print(f"\n{len(rows)} of {len(found)} meshed; hexes have {mean('volume'):.1f} % of the volume in the mean (goal {GOAL}), {mean('number'):.1f} % by number")
