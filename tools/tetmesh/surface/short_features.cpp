@@ -223,8 +223,9 @@ bool FeatureJoiner::are_on_one_curve(VertexH a, VertexH b, double distance) cons
   for (const HalfedgeH start : mesh_.voh_range(a)) {
     if (!mesh_.is_feature(mesh_.edge_handle(start))) continue;
     follow(start, [&](EdgeH, double length, VertexH end) {
-      found = found || end == b;
-      return !found && length < longest_detour * distance;
+      const bool is_near = length < longest_detour * distance;
+      found = found || (is_near && end == b);
+      return is_near && !found;
     });
   }
   return found;
