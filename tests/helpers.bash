@@ -19,6 +19,8 @@ CHECKERS="$HEXPIPE_SOURCE/tests/checkers"
 # Debian's python3, for which the apt packages numpy, meshio and vtk are installed.
 PYTHON=/usr/bin/python3
 export PATH="$HEXPIPE_BIN:$PATH"
+# A machine without any would take text for bytes.
+export LANG="${LANG:-C.UTF-8}"
 
 # An empty directory: Bats keeps files of its own in BATS_TEST_TMPDIR.
 setup() {
