@@ -44,15 +44,7 @@ SurfaceSoup merge_equal_points(SurfaceSoup soup) {
       corner = index;
     }
   }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < soup.curves.size(); ++i) {
-    const CurveEdge edge{new_index[soup.curves[i][0]], new_index[soup.curves[i][1]]};
-    if (edge[0] == edge[1]) continue;
-    soup.curves[kept] = edge;
-    soup.curve_tags[kept++] = soup.curve_tags[i];
-  }
-  soup.curves.resize(kept);
-  soup.curve_tags.resize(kept);
+  renumber_curves(soup, new_index);
   soup.file_vertex_count = soup.points.size();
   soup.points = std::move(merged);
   return soup;

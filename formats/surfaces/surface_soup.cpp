@@ -37,6 +37,24 @@ std::string SurfaceSoup::place_of(std::size_t triangle) const {
   return text ? fmt::format("{}:{}", name, places[triangle]) : fmt::format("{}: triangle {}", name, places[triangle]);
 }
 
+void keep_curves_if(SurfaceSoup& soup, const std::function<bool(const CurveEdge&)>& keeps) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < soup.curves.size(); ++i) {
+    if (!keeps(soup.curves[i])) continue;
+    soup.curves[kept] = soup.curves[i];
+    soup.curve_tags[kept++] = soup.curve_tags[i];
+  }
+  soup.curves.resize(kept);
+  soup.curve_tags.resize(kept);
+}
+
+void renumber_curves(SurfaceSoup& soup, std::span<const Vertex> number) {
+  for (CurveEdge& edge : soup.curves)
+    for (Vertex& end : edge) end = number[end];
+  keep_curves_if(
+      soup, [](const CurveEdge& edge) { return edge[0] != edge[1] && edge[0] != no_index && edge[1] != no_index; });
+}
+
 void check_extent(const SurfaceSoup& soup) {
   if (soup.triangles.empty()) throw DataError::at(soup.name, "expected a surface, found no triangles");
   if (soup.triangles.size() > std::numeric_limits<std::int32_t>::max() / 3)

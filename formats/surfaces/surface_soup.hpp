@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,12 @@ struct SurfaceSoup {
   // "12" or "3": a place as it is listed inside a message, see place_unit().
   const char* place_unit() const { return text ? "line" : "triangle"; }
 };
+
+// Drops the edges of curves for which keeps(edge) is false, with their tags.
+void keep_curves_if(SurfaceSoup& soup, const std::function<bool(const CurveEdge&)>& keeps);
+
+// Gives the ends of curves new numbers, by point. Drops edges that became points, or have an end without a number.
+void renumber_curves(SurfaceSoup& soup, std::span<const Vertex> number);
 
 // Checks what all readers promise: there are triangles, not too many, of a size that allows computation.
 void check_extent(const SurfaceSoup& soup);

@@ -99,8 +99,7 @@ class Collapser {
   void end_round() {
     for (Triangle& t : surface_.triangles)
       for (Vertex& v : t) v = into_[v];
-    for (formats::CurveEdge& ends : surface_.curves)
-      for (Vertex& v : ends) v = into_[v];
+    formats::renumber_curves(surface_, into_);
     drop_what_became_flat();
   }
 
@@ -118,15 +117,7 @@ class Collapser {
     surface_.sides.resize(kept);
     surface_.places.resize(kept);
     KeySet<2> seen;
-    kept = 0;
-    for (std::size_t i = 0; i < surface_.curves.size(); ++i) {
-      const auto& [a, b] = surface_.curves[i];
-      if (a == b || !seen.insert(edge_key(a, b)).second) continue;
-      surface_.curves[kept] = surface_.curves[i];
-      surface_.curve_tags[kept++] = surface_.curve_tags[i];
-    }
-    surface_.curves.resize(kept);
-    surface_.curve_tags.resize(kept);
+    formats::keep_curves_if(surface_, [&](const formats::CurveEdge& edge) { return seen.insert(key_of(edge)).second; });
   }
 
   // Without the points that are left over.
@@ -143,8 +134,7 @@ class Collapser {
     surface_.points.resize(kept);
     for (Triangle& t : surface_.triangles)
       for (Vertex& v : t) v = number[v];
-    for (formats::CurveEdge& e : surface_.curves)
-      for (Vertex& v : e) v = number[v];
+    formats::renumber_curves(surface_, number);
   }
 
   formats::SurfaceSoup surface_;

@@ -80,7 +80,7 @@ class Mesher {
   // Returns false where no new surface can be made; the warning says why.
   bool mesh_new_surface();
   // Returns why it failed, or nothing. What is remeshed has to outlive the remesher.
-  std::string remesh(const solid::Surface& shape, const surface::RemeshOptions& options);
+  std::string remesh(const solid::Surface& shape);
   void mesh_given_surface();
   void place_points();
   void try_frame_points();
@@ -152,24 +152,14 @@ MeshedSurface Mesher::mesh() {
 }
 
 bool Mesher::mesh_new_surface() {
-  // A deviation in sizes is small beside the model, unless a wall is thinner than a size: then the wall's thickness
-  // counts.
-  surface::RemeshOptions remeshing{size_, options_.feature_angle, options_.deviation, {}, options_.row_stretch};
-  const bool asks_for_too_many = surface::asks_for_too_many_points(given_, size_);
-  const auto make = [&](const solid::Surface& shape) {
-    if (!demand_.layers && !asks_for_too_many) {
-      sizing::SizeDemand one_layer = demand_;
-      one_layer.layers = 1;
-      remeshing.unit = sizing::field_of(shape, std::move(one_layer));
-    }
-    return remesh(shape, remeshing);
-  };
-  if (options_.short_features > 0 && !asks_for_too_many)
+  if (options_.short_features > 0 && !surface::asks_for_too_many_points(given_, size_))
     joined_ = surface::join_short_features(given_, options_.feature_angle, options_.short_features * size_);
-  if (joined_ && make(joined_->surface).empty()) return true;
-  if (joined_) warnings_.push_back("short features stay: without them no new surface is good enough");
-  joined_.reset();
-  const std::string failure = make(given_);
+  if (joined_) {
+    if (remesh(joined_->surface).empty()) return true;
+    warnings_.push_back("short features stay: without them no new surface is good enough");
+    joined_.reset();
+  }
+  const std::string failure = remesh(given_);
   if (!failure.empty())
     warnings_.push_back(
         fmt::format("the surface is {}: {}", given_.has_sheets ? "only cut to the size" : "kept as it is", failure));
@@ -178,7 +168,15 @@ bool Mesher::mesh_new_surface() {
 
 // TetGen works on the new surface while this thread judges that surface. TetGen may fail on the new surface and not on
 // the given one, because their points differ.
-std::string Mesher::remesh(const solid::Surface& shape, const surface::RemeshOptions& options) {
+std::string Mesher::remesh(const solid::Surface& shape) {
+  surface::RemeshOptions options{size_, options_.feature_angle, options_.deviation, {}, options_.row_stretch};
+  // A deviation in sizes is small beside the model, unless a wall is thinner than a size: then the wall's thickness
+  // counts.
+  if (!demand_.layers && !surface::asks_for_too_many_points(given_, size_)) {
+    sizing::SizeDemand one_layer = demand_;
+    one_layer.layers = 1;
+    options.unit = sizing::field_of(shape, std::move(one_layer));
+  }
   surface::SurfaceRemesher& remesher = remesher_.emplace(given_, shape, options);
   const auto make = [&] {
     const Step step("making new triangles for the surface", 0, surface_ends);

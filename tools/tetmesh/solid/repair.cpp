@@ -395,16 +395,7 @@ void Repairer::drop_unused_points() {
       v = new_index[v];
     }
   soup_.points = std::move(points);
-  // Drops curve edges whose triangles are gone.
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < soup_.curves.size(); ++i) {
-    const formats::CurveEdge edge{new_index[soup_.curves[i][0]], new_index[soup_.curves[i][1]]};
-    if (edge[0] == no_index || edge[1] == no_index || edge[0] == edge[1]) continue;
-    soup_.curves[kept] = edge;
-    soup_.curve_tags[kept++] = soup_.curve_tags[i];
-  }
-  soup_.curves.resize(kept);
-  soup_.curve_tags.resize(kept);
+  formats::renumber_curves(soup_, new_index);
 }
 
 std::string counted(std::size_t count, std::string_view noun) {

@@ -314,14 +314,7 @@ void SideFinder::drop_fins() {
   KeySet<2> edges;
   for (const auto& [a, b, c] : soup_.triangles)
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) edges.insert(edge_key(from, to));
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < soup_.curves.size(); ++i) {
-    if (!edges.contains(key_of(soup_.curves[i]))) continue;
-    soup_.curves[next] = soup_.curves[i];
-    soup_.curve_tags[next++] = soup_.curve_tags[i];
-  }
-  soup_.curves.resize(next);
-  soup_.curve_tags.resize(next);
+  formats::keep_curves_if(soup_, [&](const formats::CurveEdge& edge) { return edges.contains(key_of(edge)); });
   soup_ = formats::merge_equal_points(std::move(soup_));  // also drops the points of fins
   soup_.file_vertices.clear();
 }

@@ -9,7 +9,6 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-using VertexH = OpenMesh::VertexHandle;
 using geometry::HalfEdge;
 
 // Steps are longer or shorter than the size by at most this factor.

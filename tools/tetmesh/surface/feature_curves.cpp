@@ -8,8 +8,6 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-using VertexH = OpenMesh::VertexHandle;
-
 // The end of a step that is nearer to a vertex of the curve than this share of a step moves to the vertex.
 constexpr double snapping = 1e-3;
 // The deviation adds steps up to this many times the number that the size asks for.

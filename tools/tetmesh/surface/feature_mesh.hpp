@@ -23,6 +23,11 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
   FaceAttributes(OpenMesh::Attributes::Status);
 };
 
+using VertexH = OpenMesh::VertexHandle;
+using HalfEdgeH = OpenMesh::HalfedgeHandle;
+using EdgeH = OpenMesh::EdgeHandle;
+using FaceH = OpenMesh::FaceHandle;
+
 // Normals of length 1 that differ by less belong to one plane. Edges that bend by less than this share of their length
 // lie in one plane.
 inline constexpr double plane_tolerance = 1e-5;

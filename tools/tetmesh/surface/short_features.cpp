@@ -5,6 +5,7 @@
 #include "tools/tetmesh/surface/short_features.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -19,15 +20,10 @@
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
-#include "tools/tetmesh/surface/feature_mesh.hpp"
+#include "tools/tetmesh/surface/feature_curves.hpp"
 
 namespace hexpipe::tetmesh::surface {
 namespace {
-
-using VertexH = FeatureMesh::VertexHandle;
-using HalfedgeH = FeatureMesh::HalfedgeHandle;
-using EdgeH = FeatureMesh::EdgeHandle;
-using FaceH = FeatureMesh::FaceHandle;
 
 // Triangles turn by at most 60 degrees, unless they are thinner than this many times the limit: those lie between
 // features that all become points, one after the other.
@@ -101,7 +97,6 @@ class FeatureJoiner {
   FeatureJoiner(const solid::Surface& surface, double feature_angle, const sizing::SizeField& shortest,
                 const std::vector<bool>& stays, WallThickness& thickness)
       : surface_(surface), mesh_(surface, feature_angle), shortest_(shortest), stays_(stays), thickness_(thickness) {
-    if (!mesh_.is_manifold()) return;
     into_.resize(mesh_.n_vertices());
     for (std::size_t v = 0; v < into_.size(); ++v) into_[v] = static_cast<Vertex>(v);
     moved_.resize(mesh_.n_vertices());
@@ -110,7 +105,6 @@ class FeatureJoiner {
 
   // The number of collapses.
   std::size_t run() {
-    if (!mesh_.is_manifold()) return 0;
     find_short_curves();
     for (const EdgeH e : mesh_.edges()) offer(e);
     std::size_t count = 0;
@@ -133,7 +127,7 @@ class FeatureJoiner {
   using Entry = std::pair<double, int>;  // the length of an edge and its number
 
   double length_of(EdgeH e) const {
-    const HalfedgeH h = mesh_.halfedge_handle(e, 0);
+    const HalfEdgeH h = mesh_.halfedge_handle(e, 0);
     return norm(mesh_.position(mesh_.to_vertex_handle(h)) - mesh_.position(mesh_.from_vertex_handle(h)));
   }
 
@@ -143,7 +137,7 @@ class FeatureJoiner {
 
   // Between two places of features that are no neighbours on one curve, or on a curve that is short as a whole.
   bool is_short(EdgeH e) const {
-    const HalfedgeH h = mesh_.halfedge_handle(e, 0);
+    const HalfEdgeH h = mesh_.halfedge_handle(e, 0);
     const VertexH a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
     if (mesh_.is_boundary(e) || !mesh_.is_on_feature(a) || !mesh_.is_on_feature(b)) return false;
     if (mesh_.has_copies(a) || mesh_.has_copies(b) || !shortest_.is_at_least(length_of(e), mesh_.position(a)))
@@ -151,19 +145,26 @@ class FeatureJoiner {
     return mesh_.is_feature(e) ? on_short_curve_[e.idx()] : !are_on_one_curve(a, b, length_of(e));
   }
 
-  template <class Visit>
-  void follow(HalfedgeH h, Visit&& visit) const;
   void find_short_curves();
   bool are_on_one_curve(VertexH a, VertexH b, double distance) const;
+  HalfEdgeH continuation(HalfEdgeH h) const;
   std::vector<Vertex> new_numbers() const;
+  bool takes_last_of_name(EdgeH e) const;
   bool collapse(EdgeH e);
-  bool can_go(HalfedgeH h);
+  bool can_go(HalfEdgeH h);
   bool spares_walls(VertexH v, double move);
 
   std::size_t features_at(VertexH v) const {
     std::size_t count = 0;
     for (const EdgeH e : mesh_.ve_range(v)) count += mesh_.is_feature(e);
     return count;
+  }
+  // The edge is none of a border.
+  std::array<std::int32_t, 2> tags_beside(EdgeH e) const {
+    const auto tag = [&](unsigned side) {
+      return surface_.tags[mesh_.source(mesh_.face_handle(mesh_.halfedge_handle(e, side)))];
+    };
+    return {tag(0), tag(1)};
   }
 
   const solid::Surface& surface_;
@@ -178,57 +179,45 @@ class FeatureJoiner {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 
-// Follows a feature curve from the start of a half-edge on until visit(edge, length so far, end) is false or a corner
-// is reached.
-template <class Visit>
-void FeatureJoiner::follow(HalfedgeH h, Visit&& visit) const {
-  double length = 0;
-  while (h.is_valid()) {
-    const EdgeH e = mesh_.edge_handle(h);
-    const VertexH end = mesh_.to_vertex_handle(h);
-    length += length_of(e);
-    if (!visit(e, length, end) || mesh_.is_kept(end)) return;
-    HalfedgeH next;
-    for (const HalfedgeH out : mesh_.voh_range(end))
-      if (mesh_.is_feature(mesh_.edge_handle(out)) && mesh_.edge_handle(out) != e) next = out;
-    h = next;
-  }
-}
-
-// Marks the edges of feature curves between corners that are shorter than the limit.
+// Marks the edges of feature curves between corners that are no longer than the limit at one of these.
 void FeatureJoiner::find_short_curves() {
   on_short_curve_.assign(mesh_.n_edges(), false);
-  std::vector<EdgeH> curve;
-  for (const VertexH v : mesh_.vertices()) {
-    if (!mesh_.is_kept(v)) continue;
-    const double limit = shortest_.at(mesh_.position(v));
-    for (const HalfedgeH start : mesh_.voh_range(v)) {
-      if (!mesh_.is_feature(mesh_.edge_handle(start))) continue;
-      bool is_short = false;
-      curve.clear();
-      follow(start, [&](EdgeH e, double length, VertexH end) {
-        curve.push_back(e);
-        is_short = length <= limit && mesh_.is_kept(end);
-        return length <= limit;
-      });
-      if (!is_short) continue;
-      for (const EdgeH e : curve) on_short_curve_[e.idx()] = true;
+  for (const FeatureCurve& curve : feature_curves(mesh_)) {
+    const VertexH start = curve.vertices.front(), end = curve.vertices.back();
+    if (!mesh_.is_kept(start) || !mesh_.is_kept(end)) continue;
+    std::vector<EdgeH> edges;
+    double length = 0;
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
+      edges.push_back(mesh_.edge_handle(mesh_.find_halfedge(curve.vertices[i - 1], curve.vertices[i])));
+      length += length_of(edges.back());
     }
+    const auto allows = [&](VertexH v) { return shortest_.is_at_least(length, mesh_.position(v)); };
+    if (!allows(start) && !allows(end)) continue;
+    for (const EdgeH e : edges) on_short_curve_[e.idx()] = true;
   }
 }
 
-// Whether a feature curve leads from one vertex to the other on hardly a longer way.
+// Whether a feature curve leads from one vertex to the other on hardly a longer way, by no corner.
 bool FeatureJoiner::are_on_one_curve(VertexH a, VertexH b, double distance) const {
-  bool found = false;
-  for (const HalfedgeH start : mesh_.voh_range(a)) {
-    if (!mesh_.is_feature(mesh_.edge_handle(start))) continue;
-    follow(start, [&](EdgeH, double length, VertexH end) {
-      const bool is_near = length < longest_detour * distance;
-      found = found || (is_near && end == b);
-      return is_near && !found;
-    });
+  for (HalfEdgeH h : mesh_.voh_range(a)) {
+    if (!mesh_.is_feature(mesh_.edge_handle(h))) continue;
+    for (double length = 0; h.is_valid(); h = continuation(h)) {
+      length += length_of(mesh_.edge_handle(h));
+      if (length >= longest_detour * distance) break;
+      if (mesh_.to_vertex_handle(h) == b) return true;
+    }
   }
-  return found;
+  return false;
+}
+
+// The next half-edge of a feature curve; none at a corner.
+HalfEdgeH FeatureJoiner::continuation(HalfEdgeH h) const {
+  const VertexH end = mesh_.to_vertex_handle(h);
+  HalfEdgeH next;
+  if (!mesh_.is_kept(end))
+    for (const HalfEdgeH out : mesh_.voh_range(end))
+      if (mesh_.is_feature(mesh_.edge_handle(out)) && mesh_.edge_handle(out) != mesh_.edge_handle(h)) next = out;
+  return next;
 }
 
 // Whether no wall behind a triangle at the vertex, other than a small one, loses much if the vertex moves that far.
@@ -242,22 +231,17 @@ bool FeatureJoiner::spares_walls(VertexH v, double move) {
 }
 
 // Whether the start of a half-edge can go to its end.
-bool FeatureJoiner::can_go(HalfedgeH h) {
+bool FeatureJoiner::can_go(HalfEdgeH h) {
   const VertexH from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
   const double length = length_of(mesh_.edge_handle(h));
   const double move = moved_[from.idx()] + length;
   if (stays_[from.idx()] || !shortest_.is_at_least(move, mesh_.position(from)) || !spares_walls(from, move))
     return false;
   const Vec3 end = mesh_.position(to);
-  std::map<std::int32_t, std::size_t> going;
-  for (const HalfedgeH out : mesh_.voh_range(from)) {
+  for (const HalfEdgeH out : mesh_.voh_range(from)) {
     const FaceH f = mesh_.face_handle(out);
     const VertexH b = mesh_.to_vertex_handle(out), c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(out));
-    if (b == to || c == to) {
-      const std::int32_t tag = surface_.tags[mesh_.source(f)];
-      if (++going[tag] == triangles_of_.at(tag) && surface_.names.surfaces.contains(tag)) return false;
-      continue;
-    }
+    if (b == to || c == to) continue;
     const Vec3 before = mesh_.area_normal(f), after = cross(mesh_.position(b) - end, mesh_.position(c) - end);
     if (!(norm(after) > 0)) return false;
     if (dot(before, after) > least_turn_cosine * norm(before) * norm(after)) continue;
@@ -269,17 +253,24 @@ bool FeatureJoiner::can_go(HalfedgeH h) {
   return true;
 }
 
+// Whether no triangle of a tag with a name is left without those beside the edge.
+bool FeatureJoiner::takes_last_of_name(EdgeH e) const {
+  const auto [left, right] = tags_beside(e);
+  const auto takes_last = [&](std::int32_t tag, std::size_t count) {
+    return triangles_of_.at(tag) == count && surface_.names.surfaces.contains(tag);
+  };
+  return left == right ? takes_last(left, 2) : takes_last(left, 1) || takes_last(right, 1);
+}
+
 bool FeatureJoiner::collapse(EdgeH e) {
-  HalfedgeH h = mesh_.halfedge_handle(e, 0);
+  HalfEdgeH h = mesh_.halfedge_handle(e, 0);
   // Where more curves meet is what stays.
   const auto rank = [&](VertexH v) { return std::pair(features_at(v), moved_[v.idx()]); };
   if (rank(mesh_.from_vertex_handle(h)) > rank(mesh_.to_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);
-  if (!mesh_.is_collapse_ok(h)) return false;
-  if (!can_go(h)) h = mesh_.opposite_halfedge_handle(h);
-  if (!can_go(h) || !mesh_.is_collapse_ok(h)) return false;
+  if (!mesh_.is_collapse_ok(h) || takes_last_of_name(e)) return false;
+  if (!can_go(h) && !can_go(h = mesh_.opposite_halfedge_handle(h))) return false;
   const VertexH from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
-  for (const HalfedgeH side : {h, mesh_.opposite_halfedge_handle(h)})
-    --triangles_of_[surface_.tags[mesh_.source(mesh_.face_handle(side))]];
+  for (const std::int32_t tag : tags_beside(e)) --triangles_of_[tag];
   moved_[to.idx()] = std::max(moved_[to.idx()], moved_[from.idx()] + length_of(e));
   mesh_.collapse_edge(h);
   into_[from.idx()] = to.idx();
@@ -317,14 +308,11 @@ std::vector<Vertex> FeatureJoiner::gone_into(const solid::Surface& made,
 solid::Surface FeatureJoiner::take() const {
   solid::Surface made = mesh_.to_surface(surface_);
   made.names = surface_.names;
-  const std::vector<Vertex> number = new_numbers();
+  made.curves = surface_.curves;
+  made.curve_tags = surface_.curve_tags;
+  formats::renumber_curves(made, new_numbers());
   KeySet<2> seen;
-  for (std::size_t i = 0; i < surface_.curves.size(); ++i) {
-    const Vertex from = number[surface_.curves[i][0]], to = number[surface_.curves[i][1]];
-    if (from == to || !seen.insert(edge_key(from, to)).second) continue;
-    made.curves.push_back({from, to});
-    if (!surface_.curve_tags.empty()) made.curve_tags.push_back(surface_.curve_tags[i]);
-  }
+  formats::keep_curves_if(made, [&](const formats::CurveEdge& edge) { return seen.insert(key_of(edge)).second; });
   return made;
 }
 

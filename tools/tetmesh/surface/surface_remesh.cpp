@@ -67,15 +67,15 @@ bool has_within(const geometry::SizedPointGrid& grid, const Vec3& place, double 
 
 class SurfaceRemesher::Work {
  public:
-  Work(const solid::Surface& given, const solid::Surface& surface, const RemeshOptions& options)
-      : given_(surface),
-        reported_(given),
+  Work(const solid::Surface& given, const solid::Surface& shape, const RemeshOptions& options)
+      : given_(given),
+        shape_(shape),
         size_(options.size),
         deviation_(options.deviation * options.unit.value_or(options.size)),
         row_stretch_(options.row_stretch),
-        expected_points_(sizing::points_on_surface(surface, size_, most_points)),
-        thinned_(thin_if_dense(surface, options.feature_angle)),
-        surface_(thinned_ ? *thinned_ : surface),
+        expected_points_(sizing::points_on_surface(shape, size_, most_points)),
+        thinned_(thin_if_dense(shape, options.feature_angle)),
+        surface_(thinned_ ? *thinned_ : shape),
         prepared_(surface_, options.feature_angle) {}
 
   bool make();
@@ -98,7 +98,7 @@ class SurfaceRemesher::Work {
     CloseWatch too_far;
   };
   Faults find_faults();
-  void measure_from_reported();
+  void measure_from_given();
   std::vector<Vec3> find_gaps() const;
   void keep_nearest(std::span<const Vec3> places, const sizing::SizeField& reach);
   void hold_around(std::span<const Vec3> places, const sizing::SizeField& reach);
@@ -116,8 +116,8 @@ class SurfaceRemesher::Work {
     std::vector<float> corrections = {};  // of distances, since the first lattice
   };
 
-  const solid::Surface& given_;
-  const solid::Surface& reported_;  // from which distances are reported
+  const solid::Surface& given_;  // from which distances are reported
+  const solid::Surface& shape_;  // the given one, or that without its short features
   sizing::SizeField size_, deviation_;
   double row_stretch_;
   bool is_prepared_ = false;
@@ -150,7 +150,7 @@ bool SurfaceRemesher::Work::make() {
 
 bool SurfaceRemesher::Work::judge() {
   const Faults faults = find_faults();
-  if (result.failure.empty() && &reported_ != &given_) measure_from_reported();
+  if (result.failure.empty() && &given_ != &shape_) measure_from_given();
   const auto& [places, too_far] = faults;
   // A point may come again; that only takes time.
   append(watch_.left_behind, too_far.left_behind);
@@ -175,7 +175,7 @@ bool SurfaceRemesher::Work::prepare() {
   }
   bool placed = false;
   // This thread takes the second, whose steps the line of progress shows.
-  both_at_once([&] { input_.emplace(given_.points, given_.triangles); }, [&] { placed = place_points(); });
+  both_at_once([&] { input_.emplace(shape_.points, shape_.triangles); }, [&] { placed = place_points(); });
   is_prepared_ = placed;
   if (!placed) result.failure = "in double precision some of its triangles have no direction";
   return placed;
@@ -308,7 +308,7 @@ SurfaceRemesher::Work::Faults SurfaceRemesher::Work::find_faults() {
         const sizing::SizeField spacing = sample_spacing * size_, limit = (1 + 1e-9) * deviation_;
         const DistanceIndex output(made.points, made.triangles);
         there = one_sided_distance(made.points, made.triangles, *input_, spacing, limit);
-        back = one_sided_distance(given_.points, given_.triangles, output, spacing, limit);
+        back = one_sided_distance(shape_.points, shape_.triangles, output, spacing, limit);
       },
       [&] {
         for (const auto& pair :
@@ -325,17 +325,17 @@ SurfaceRemesher::Work::Faults SurfaceRemesher::Work::find_faults() {
   return faults;
 }
 
-void SurfaceRemesher::Work::measure_from_reported() {
-  const sizing::SizeField spacing = sample_spacing * size_, no_limit = sizing::bounding_box_diagonal(reported_);
+void SurfaceRemesher::Work::measure_from_given() {
+  const sizing::SizeField spacing = sample_spacing * size_, no_limit = sizing::bounding_box_diagonal(given_);
   both_at_once(
       [&] {
-        const DistanceIndex there(reported_.points, reported_.triangles);
+        const DistanceIndex there(given_.points, given_.triangles);
         result.to_input =
             one_sided_distance(result.surface.points, result.surface.triangles, there, spacing, no_limit).greatest;
       },
       [&] {
         const DistanceIndex here(result.surface.points, result.surface.triangles);
-        result.from_input = one_sided_distance(reported_.points, reported_.triangles, here, spacing, no_limit).greatest;
+        result.from_input = one_sided_distance(given_.points, given_.triangles, here, spacing, no_limit).greatest;
       });
 }
 
@@ -386,9 +386,8 @@ void SurfaceRemesher::Work::hold_around(std::span<const Vec3> places, const sizi
   }
 }
 
-SurfaceRemesher::SurfaceRemesher(const solid::Surface& given, const solid::Surface& surface,
-                                 const RemeshOptions& options)
-    : work_(new Work(given, surface, options)) {}
+SurfaceRemesher::SurfaceRemesher(const solid::Surface& given, const solid::Surface& shape, const RemeshOptions& options)
+    : work_(new Work(given, shape, options)) {}
 
 SurfaceRemesher::~SurfaceRemesher() = default;
 

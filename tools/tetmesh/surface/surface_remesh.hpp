@@ -39,9 +39,9 @@ struct RemeshResult {
 // surface before it is judged. It never throws because of the surface: if no new surface is as promised, it says so.
 class SurfaceRemesher {
  public:
-  // `surface` is the given one, or that without its short features, and must outlive it, as the given one must. The new
-  // surface keeps its distance from `surface`; the result has that from the given one.
-  SurfaceRemesher(const solid::Surface& given, const solid::Surface& surface, const RemeshOptions& options);
+  // `shape` is the given surface, or that without its short features. Both must outlive the remesher. The new surface
+  // keeps its distance from the shape; the result has that from the given one.
+  SurfaceRemesher(const solid::Surface& given, const solid::Surface& shape, const RemeshOptions& options);
   SurfaceRemesher(const solid::Surface& surface, const RemeshOptions& options)
       : SurfaceRemesher(surface, surface, options) {}
   ~SurfaceRemesher();

@@ -294,9 +294,9 @@ std::vector<FeatureMesh::EdgeHandle> specks(const FeatureMesh& mesh, const solid
 // The ends of curves are on features, which stay.
 void add_curves(const solid::Surface& surface, const FeatureMesh& mesh, solid::Surface& thinned) {
   if (surface.curves.empty()) return;
-  const std::vector<Vertex> number = mesh.point_numbers();
-  for (const auto& [from, to] : surface.curves) thinned.curves.push_back({number[from], number[to]});
+  thinned.curves = surface.curves;
   thinned.curve_tags = surface.curve_tags;
+  formats::renumber_curves(thinned, mesh.point_numbers());
 }
 
 }  // namespace

@@ -17,11 +17,6 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-using Edge = OpenMesh::EdgeHandle;
-using Face = OpenMesh::FaceHandle;
-using HalfEdgeH = OpenMesh::HalfedgeHandle;
-using VertexH = OpenMesh::VertexHandle;
-
 // A collapse may turn a face's normal by an angle of this cosine, and make triangles of this shape (1 is equilateral).
 constexpr double least_cosine = 0.3, least_shape = 1e-3;
 // Edges that bend by less than this share of the deviation are flat.
@@ -58,7 +53,7 @@ Vec3 middle_of(const Corners& c) {
 // A change of the mesh: the faces that go or change, what they become, and where their removed vertices would go.
 struct Change {
   bool flat = false;  // everything that changes lies in one plane, before and after
-  std::vector<Face> faces;
+  std::vector<FaceH> faces;
   std::vector<Corners> corners;
   std::vector<Vec3> places;         // where to measure: on the new faces and in the middle of each new edge
   std::vector<Vec3> strays;         // removed vertices of all faces that change
@@ -72,12 +67,12 @@ using Strays = std::vector<std::vector<Vec3>>;
 // without a vertex nearby that would show it.
 Strays samples_of_edges(const FeatureMesh& mesh, const sizing::SizeField& deviation) {
   Strays strays(mesh.n_faces());
-  for (const Edge e : mesh.edges()) {
+  for (const EdgeH e : mesh.edges()) {
     const HalfEdgeH h = mesh.halfedge_handle(e, 0);
     const Vec3 start = mesh.position(mesh.from_vertex_handle(h));
     const Vec3 along = mesh.position(mesh.to_vertex_handle(h)) - start;
     if (!mesh.is_boundary(e) && deviation.is_at_least(EdgeDiamond(mesh, e).height() / flat_bend, start)) continue;
-    const Face f = mesh.face_at(e);
+    const FaceH f = mesh.face_at(e);
     const double parts = std::min(most_samples, std::ceil(norm(along) / (watch_spacing * deviation.at(start))));
     // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): small whole numbers
     for (double i = 1; i < parts; ++i) strays[f.idx()].push_back(start + i / parts * along);
@@ -91,7 +86,7 @@ void watch_points(const FeatureMesh& mesh, std::span<const Vec3> watched, Strays
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   for (const VertexH v : mesh.vertices()) points.push_back(mesh.position(v));
-  for (const Face f : mesh.faces()) {
+  for (const FaceH f : mesh.faces()) {
     const auto [a, b, c] = mesh.corners(f);
     triangles.push_back({a.idx(), b.idx(), c.idx()});
   }
@@ -156,18 +151,18 @@ class VertexRemover {
     return waiting;
   }
 
-  void flip(std::span<const Edge> edges) {
-    for (const Edge e : edges) queue_.push(e);
+  void flip(std::span<const EdgeH> edges) {
+    for (const EdgeH e : edges) queue_.push(e);
     flip_queued();
   }
   // Flips only edges of thin triangles, within `deviation`.
-  void flip_thin(std::span<const Edge> edges, const sizing::SizeField& deviation) {
+  void flip_thin(std::span<const EdgeH> edges, const sizing::SizeField& deviation) {
     deviation_ = &deviation;
     only_thin_ = true;
     flip(edges);
   }
   // Flips that were wanted, but not all inside the region.
-  std::span<const Edge> wanted() const { return wanted_; }
+  std::span<const EdgeH> wanted() const { return wanted_; }
 
  private:
   struct Choice {
@@ -189,7 +184,7 @@ class VertexRemover {
   bool fits_closely(const Corners& face);
   void settle_strays();
   void flip_queued();
-  bool allow_flip(Edge e, const EdgeDiamond& diamond);
+  bool allow_flip(EdgeH e, const EdgeDiamond& diamond);
 
   FeatureMesh& mesh_;
   const DistanceIndex& original_;
@@ -213,7 +208,7 @@ class VertexRemover {
   Change change_;
   std::vector<geometry::TriangleDistance> distances_;  // to the change's faces
   EdgeQueue queue_;
-  std::vector<Edge> wanted_;
+  std::vector<EdgeH> wanted_;
 };
 
 bool VertexRemover::remove(VertexH v) {
@@ -243,9 +238,9 @@ void VertexRemover::collapse(HalfEdgeH h) {
   const VertexH target = mesh_.to_vertex_handle(h);
   mesh_.collapse_edge(h);
   settle_strays();
-  for (const Edge e : mesh_.ve_range(target)) queue_.push(e);
-  for (const Face f : mesh_.vf_range(target))
-    for (const Edge e : mesh_.fe_range(f)) queue_.push(e);
+  for (const EdgeH e : mesh_.ve_range(target)) queue_.push(e);
+  for (const FaceH f : mesh_.vf_range(target))
+    for (const EdgeH e : mesh_.fe_range(f)) queue_.push(e);
 }
 
 // Removes all copies in the same way along the joint, or none.
@@ -285,7 +280,7 @@ bool VertexRemover::fit_all(std::span<const HalfEdgeH> collapses) {
 
 void VertexRemover::gather_faces(VertexH v) {
   faces_.clear();
-  for (const Face f : mesh_.vf_range(v)) {
+  for (const FaceH f : mesh_.vf_range(v)) {
     FaceAround& face = faces_.emplace_back();
     face.handles = mesh_.corners(f);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -320,7 +315,7 @@ void VertexRemover::describe_collapse(HalfEdgeH collapse) {
   change_.corners.clear();
   change_.places.clear();
   change_.strays.assign(1, mesh_.position(v));
-  for (const Face f : mesh_.vf_range(v)) {
+  for (const FaceH f : mesh_.vf_range(v)) {
     const auto& of_face = strays_[f.idx()];
     change_.strays.insert(change_.strays.end(), of_face.begin(), of_face.end());
     const auto handles = mesh_.corners(f);
@@ -377,24 +372,24 @@ bool VertexRemover::fits_closely(const Corners& face) {
 }
 
 void VertexRemover::settle_strays() {
-  for (const Face f : change_.faces) strays_[f.idx()].clear();
+  for (const FaceH f : change_.faces) strays_[f.idx()].clear();
   for (std::size_t i = 0; i < change_.strays.size(); ++i)
     strays_[change_.faces[change_.target[i]].idx()].push_back(change_.strays[i]);
 }
 
 void VertexRemover::flip_queued() {
   flip_towards_delaunay(
-      mesh_, queue_, [&](Edge e, const EdgeDiamond& diamond) { return allow_flip(e, diamond); },
-      [&](Edge) { settle_strays(); });
+      mesh_, queue_, [&](EdgeH e, const EdgeDiamond& diamond) { return allow_flip(e, diamond); },
+      [&](EdgeH) { settle_strays(); });
 }
 
-bool VertexRemover::allow_flip(Edge e, const EdgeDiamond& diamond) {
+bool VertexRemover::allow_flip(EdgeH e, const EdgeDiamond& diamond) {
   if (regions_ && !regions_->has(region_, diamond)) {
     wanted_.push_back(e);
     return false;
   }
-  const Face left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
-             right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
+  const FaceH left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
+              right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
   if (mesh_.is_held(left) || mesh_.is_held(right)) return false;
   if (!deviation_->is_at_least(diamond.height(), diamond.end_points[0])) return false;
   const auto [a, b] = diamond.end_points;
@@ -442,7 +437,7 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   for (const std::vector<VertexH>& some : waiting) left.insert(left.end(), some.begin(), some.end());
   on_features_first(left);
   left = everywhere.remove(std::move(left));
-  const std::vector<Edge> edges(mesh.edges().begin(), mesh.edges().end());
+  const std::vector<EdgeH> edges(mesh.edges().begin(), mesh.edges().end());
   everywhere.flip(edges);
   everywhere.flip_thin(edges, allowance_for_thin * deviation);
   return left.size() + left_at_joints;
