@@ -37,6 +37,10 @@ def area(tag):
 def volume():
     return float(sum(np.linalg.det(points[list(t)]) / 6 for t in triangles))
 
+def volumes():
+    return [round(float(sum(((back == region) * 1 - (front == region) * 1) * np.linalg.det(points[list(t)]) / 6 for t, (back, front) in zip(triangles, sides))), 6)
+            for region in range(1, int(sides.max()) + 1)]
+
 def open_edges():
     count = {}
     for t in triangles:
@@ -309,8 +313,45 @@ END
     run $PYTHON -c 'import json; cells = json.load(open("stats.json"))["cells"]; print({k: v["count"] for k, v in cells.items() if v["count"]})'
     assert_output "{'hex': 1024}"
   fi
-  assert_fails_with 1 "overlapping.step: expected bodies that touch at most, found some that overlap; the second is 'body 2'" \
+}
+
+@test "of bodies that overlap one is cut, as --overlaps says, or they are refused by name" {
+  step overlapping in-another through-another
+  assert_fails_with 1 "overlapping.step: expected bodies that touch at most, found some that overlap: body 1 \('body 1'\) and body 2 \('body 2'\) by 12.5 % of the smaller one \(--overlaps .*\)" \
     tessellate overlapping.step --join
+  assert_fails_with 1 "in-another.step: .* overlap: body 1 \('body 1'\) and body 2 \('body 2'\) by 100 % of the smaller one" tessellate in-another.step --overlaps refuse --join
+  # A body of 64 and one of 64 with 8 in common; equal ones: the first is the smaller one.
+  local rule
+  for rule in first:64:56 last:56:64 small:64:56; do
+    run_apart tessellate overlapping.step --overlaps "${rule%%:*}" --stats stats.json -o cut.tar
+    assert_success
+    assert_regex "$stderr" "^tessellate: warning: overlapping.step: bodies overlapped: body 1 \('body 1'\) and body 2 \('body 2'\) by 12.5 % of the smaller one; that is the (first|last|smaller) one's now \(--overlaps\)$"
+    IFS=: read -r _ one other <<<"$rule"
+    assert_equal "$(surface cut.tar 'volumes(), sorted(names["regions"].items())')" "([$one.0, $other.0], [('1', 'body 1'), ('2', 'body 2')])"
+    holds 'stats["overlaps"] == 1 and stats["bodies"] == 2' stats.json
+  done
+  # One that lies in another, of 216 and 8, leaves a cavity there, or nothing.
+  tessellate -q in-another.step --overlaps small -o small.tar
+  assert_equal "$(surface small.tar 'volumes()')" "[208.0, 8.0]"
+  run_apart tessellate in-another.step --overlaps first -o first.tar
+  assert_equal "${stderr_lines[1]}" "tessellate: warning: in-another.step: body 2 ('body 2') lies in others, and is left out (--overlaps)"
+  assert_equal "$(surface first.tar 'volumes()')" "[216.0]"
+  # A bar through a plate ends in two pieces, or makes a hole.
+  tessellate -q through-another.step --overlaps last -o last.tar
+  assert_equal "$(surface last.tar 'volumes(), list(names["regions"].values())')" "([8.0, 8.0, 32.0], ['body 1', 'body 1', 'body 2'])"
+  tessellate -q through-another.step --overlaps first -o first.tar
+  assert_equal "$(surface first.tar 'volumes()')" "[24.0, 24.0]"
+  # Bodies that only touch stay as --join makes them.
+  step touching
+  run_apart tessellate touching.step --overlaps small --stats stats.json -o touching.tar
+  assert_equal "$stderr" ""
+  holds 'stats["overlaps"] == 0' stats.json
+  assert_equal "$(surface touching.tar 'volumes(), sorted(map(tuple, sides.tolist())).count((1, 2))')" "([64.0, 64.0], 2)"
+  if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
+    tetmesh -q small.tar --size 0.5 | findhex -q | buildgraph -q | initsol -q --iterations 1000 | assemble -q --stats stats.json -o small.msh
+    assert_conforming small.msh
+    holds 'stats["cells"]["hex"]["count"] == 1728 and stats["cells"]["tet"]["count"] == 0' stats.json
+  fi
 }
 
 @test "closed shells without a solid are bodies, which is told; sheets are an error" {

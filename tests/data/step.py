@@ -163,6 +163,8 @@ KINDS = {
     "touching": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((4, 0, 0), (8, 4, 4))).text(),
     "half-touching": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((4, 1, 1), (7, 3, 3))).text(),
     "overlapping": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((2, 2, 2), (6, 6, 6))).text(),
+    "in-another": lambda: bodies(((0, 0, 0), (6, 6, 6)), ((2, 2, 2), (4, 4, 4))).text(),
+    "through-another": lambda: bodies(((0, 0, 0), (6, 2, 2)), ((2, -1, -1), (4, 3, 3))).text(),
     "apart": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((5, 0, 0), (9, 4, 4))).text(),
     "many": lambda: grid(500).text(),
     "baffle": lambda: baffles(((0, 0), (4, 2))).text(),

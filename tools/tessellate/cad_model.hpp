@@ -2,7 +2,9 @@
 // A CAD model: how it is read (STEP, IGES and BREP, recognized by content), its bodies, and the names of its shapes.
 
 #include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS_Shape.hxx>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -31,6 +33,17 @@ class ShapeNames {
   };
   std::map<const void*, Entry> names_;
 };
+
+// Passes names from the parts of a shape to the parts that a change made of them: changed(part, set) calls set(made)
+// for each of these.
+template <class ChangeOf>
+void carry_names(const TopoDS_Shape& shape, ShapeNames& names, ChangeOf&& changed) {
+  for (const TopAbs_ShapeEnum type : {TopAbs_FACE, TopAbs_EDGE})
+    for (TopExp_Explorer part(shape, type); part.More(); part.Next()) {
+      const std::string name = names.of(part.Current());
+      if (!name.empty()) changed(part.Current(), [&](const TopoDS_Shape& made) { names.set(made, name); });
+    }
+}
 
 struct CadBody {
   TopoDS_Shape solid;
@@ -72,9 +85,5 @@ void heal_bodies(CadModel& model);
 
 // Adds the faces of the whole that belong to no solid to the sheets.
 void find_sheets(const TopoDS_Shape& whole, CadModel& model);
-
-// Lets bodies that touch share their common faces, edges and vertices, and puts sheets into the bodies that they lie
-// in, as internal faces. What lies in none is left out with a warning. Throws DataError for bodies that overlap.
-void join_bodies(const std::string& source, CadModel& model);
 
 }  // namespace hexpipe::tessellate

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,10 @@
 using namespace hexpipe;
 
 namespace {
+
+using tessellate::Overlaps;
+const std::map<std::string, Overlaps> rules{
+    {"refuse", Overlaps::refuse}, {"first", Overlaps::first}, {"last", Overlaps::last}, {"small", Overlaps::small}};
 
 formats::Input open_cad(const std::string& path) {
   if (path == "-" && isatty(STDIN_FILENO))
@@ -34,7 +39,7 @@ int main(int argc, char** argv) {
       .product = std::nullopt,
   };
   tessellate::TessellateOptions options;
-  std::string path = "-", output_path;
+  std::string path = "-", output_path, overlaps = "refuse";
   bool compress = false;
   const auto declare = [&](CLI::App& app) {
     app.add_option("cad", path, "A file in STEP, IGES or BREP; standard input if it is '-' or missing")
@@ -54,6 +59,11 @@ int main(int argc, char** argv) {
         ->group(group::first)
         ->check(one_of({"m", "mm"}));
     app.add_flag("--join", options.join, "Let bodies that touch share their common faces, edges and corners");
+    app.add_option("--overlaps", overlaps,
+                   "Whose what two bodies have in common is: refuse them, or cut it off the other than the first, last "
+                   "or smaller one, and join them [refuse]")
+        ->check(one_of(rules))
+        ->type_name("RULE");
     app.add_flag(
         "--keep-baffles", options.keep_baffles,
         "Keep faces inside that bound no body, joined to the faces that they meet, for tetmesh --keep-baffles");
@@ -66,6 +76,7 @@ int main(int argc, char** argv) {
   const auto run = [&](RunContext& context) {
     const std::string_view format = pipeline::surface_format_of(output_path);
     formats::Input input = open_cad(path);
+    options.overlaps = rules.at(overlaps);
     const tessellate::TessellateResult result = tessellate::tessellate(input, options);
     for (const std::string& warning : result.warnings) context.warn(input.name() + ": " + warning);
     formats::Output output(output_path);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepCheck_Analyzer.hxx>
@@ -16,8 +15,6 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
-#include <TopTools_ListOfShape.hxx>
-#include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Solid.hxx>
@@ -98,16 +95,6 @@ void add_open_shells(const TopoDS_Shape& shape, CadModel& model) {
     for (TopExp_Explorer face(shell.Current(), TopAbs_FACE); face.More(); face.Next())
       model.sheets.push_back(face.Current());
   }
-}
-
-// Passes names from the parts of a shape to the parts that a change made of them.
-template <class ChangeOf>
-void carry_names(const TopoDS_Shape& shape, ShapeNames& names, ChangeOf&& changed) {
-  for (const TopAbs_ShapeEnum type : {TopAbs_FACE, TopAbs_EDGE})
-    for (TopExp_Explorer part(shape, type); part.More(); part.Next()) {
-      const std::string name = names.of(part.Current());
-      if (!name.empty()) changed(part.Current(), [&](const TopoDS_Shape& made) { names.set(made, name); });
-    }
 }
 
 struct SewnFaces {
@@ -208,66 +195,6 @@ void heal_bodies(CadModel& model) {
   if (faulty > 0)
     model.warnings.push_back(fmt::format("{} did not hold together by OpenCASCADE's rules, and could not be healed",
                                          counted_bodies(faulty)));
-}
-
-namespace {
-
-// The shapes that the general fuse has made of a shape.
-TopTools_ListOfShape parts_of(const TopoDS_Shape& shape, BRepAlgoAPI_BuilderAlgo& fuse) {
-  TopTools_ListOfShape parts = fuse.Modified(shape);
-  if (parts.IsEmpty() && !fuse.IsDeleted(shape)) parts.Append(shape);
-  return parts;
-}
-
-// Tells how many of the sheets' faces lie in no body, or on the boundary of one.
-void tell_lost_sheets(CadModel& model, BRepAlgoAPI_BuilderAlgo& fuse) {
-  TopTools_MapOfShape inside;
-  for (const CadBody& body : model.bodies)
-    for (TopExp_Explorer face(body.solid, TopAbs_FACE); face.More(); face.Next())
-      if (face.Current().Orientation() == TopAbs_INTERNAL) inside.Add(face.Current());
-  int lost = 0;
-  for (const TopoDS_Shape& sheet : model.sheets)
-    for (const TopoDS_Shape& part : parts_of(sheet, fuse)) lost += inside.Contains(part) ? 0 : 1;
-  if (lost > 0)
-    model.warnings.push_back(fmt::format("{} outside of all bodies, or on their boundary, {} no baffle{} and left out",
-                                         counted(lost, "face"), lost == 1 ? "is" : "are", lost == 1 ? "" : "s"));
-}
-
-}  // namespace
-
-void join_bodies(const std::string& source, CadModel& model) {
-  if (model.bodies.size() + model.sheets.size() < 2) return;
-  BRepAlgoAPI_BuilderAlgo fuse;
-  TopTools_ListOfShape arguments;
-  for (const CadBody& body : model.bodies) arguments.Append(body.solid);
-  for (const TopoDS_Shape& sheet : model.sheets) arguments.Append(sheet);
-  fuse.SetArguments(arguments);
-  fuse.SetNonDestructive(Standard_True);
-  fuse.SetRunParallel(Standard_False);
-  fuse.Build();
-  if (fuse.HasErrors())
-    throw DataError::at(source, "OpenCASCADE cannot join its bodies and faces (--join, --keep-baffles)");
-  std::vector<CadBody> joined;
-  TopTools_MapOfShape seen;
-  const auto carry = [&](const TopoDS_Shape& shape) {
-    carry_names(shape, model.names, [&](const TopoDS_Shape& part, const auto& set) {
-      for (const TopoDS_Shape& made : fuse.Modified(part)) set(made);
-    });
-  };
-  for (const TopoDS_Shape& sheet : model.sheets) carry(sheet);
-  for (const CadBody& body : model.bodies) {
-    carry(body.solid);
-    for (const TopoDS_Shape& part : parts_of(body.solid, fuse)) {
-      if (!seen.Add(part))
-        throw DataError::at(
-            source,
-            "expected bodies that touch at most, found some that overlap; the second is '{}' (--body takes one alone)",
-            body.name.empty() ? fmt::format("{}", &body - model.bodies.data() + 1) : body.name);
-      joined.push_back({part, body.name});
-    }
-  }
-  model.bodies = std::move(joined);
-  tell_lost_sheets(model, fuse);
 }
 
 }  // namespace hexpipe::tessellate

@@ -59,7 +59,8 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
     if (!options.bodies.empty()) keep_bodies(options.bodies, input.name(), model);
     heal_bodies(model);
     if (!options.keep_baffles) leave_out_sheets(model);
-    if (options.join || options.keep_baffles) join_bodies(input.name(), model);
+    if (options.join || options.keep_baffles || options.overlaps != Overlaps::refuse)
+      result.overlaps = join_bodies(input.name(), options.overlaps, model);
     TriangulationOptions triangulation{.angle = options.angle, .keep_baffles = options.keep_baffles};
     if (options.deviation) triangulation.deviation = *options.deviation * unit.millimetres;
     step.emplace("making triangles", 0.6);
@@ -96,6 +97,7 @@ nlohmann::ordered_json to_json(const TessellateResult& result) {
                               {"curves", result.curves},
                               {"points", result.surface.points.size()},
                               {"triangles", result.surface.triangles.size()},
+                              {"overlaps", result.overlaps},
                               {"crossings", result.crossings},
                               {"collapsed_edges", result.collapsed_edges},
                               {"gap_triangles", result.gap_triangles},

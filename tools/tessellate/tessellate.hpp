@@ -9,6 +9,7 @@
 #include "formats/pipeline/exact_shape.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/surfaces/surface_soup.hpp"
+#include "tools/tessellate/join_bodies.hpp"
 
 namespace hexpipe::tessellate {
 
@@ -19,6 +20,7 @@ struct TessellateOptions {
   std::vector<std::string> bodies = {};  // names or numbers of those that are wanted; nothing: all
   bool keep_baffles = false;             // faces inside that bound no body
   bool join = false;                     // bodies that touch share their common faces, edges and vertices
+  Overlaps overlaps = Overlaps::refuse;  // any other rule joins, too
 };
 
 struct TessellateResult {
@@ -27,6 +29,7 @@ struct TessellateResult {
   std::size_t bodies = 0, faces = 0, curves = 0;
   double deviation = 0;                             // in the units that are written
   std::string unit;                                 // of the output; empty if the file names none
+  std::size_t overlaps = 0;                         // pairs of bodies that overlapped
   std::size_t crossings = 0;                        // pairs of triangles that crossed each other at first
   std::size_t collapsed_edges = 0;                  // short ones where triangles crossed, which became points
   std::size_t gap_triangles = 0, joined_nodes = 0;  // where OpenCASCADE's triangles left gaps
