@@ -41,6 +41,10 @@ def volumes():
     return [round(float(sum(((back == region) * 1 - (front == region) * 1) * np.linalg.det(points[list(t)]) / 6 for t, (back, front) in zip(triangles, sides))), 6)
             for region in range(1, int(sides.max()) + 1)]
 
+def bodies():
+    return "; ".join("{} {} {}".format(names["regions"][str(region)], *[corner.round(6).tolist() for corner in (corners.min(0), corners.max(0))])
+                     for region in range(1, int(sides.max()) + 1) for corners in [points[np.unique(triangles[sides[:, 0] == region])]])
+
 def open_edges():
     count = {}
     for t in triangles:
@@ -490,12 +494,12 @@ PYTHON
 @test "files that are empty, cut off or no CAD are errors of one line" {
   step box
   : >empty.step
-  assert_fails_with 1 "empty.step: expected CAD in STEP, IGES or BREP, found nothing: it is empty" tessellate empty.step
+  assert_fails_with 1 "empty.step: expected CAD in STEP, IGES, BREP or FreeCAD.s FCStd, found nothing: it is empty" tessellate empty.step
   for bytes in 100 2000 4000; do
     head -c $bytes box.step >cut.step
     assert_fails_with 1 "cut.step: expected END-ISO-10303-21; at the end" tessellate cut.step
   done
-  assert_fails_with 1 "cube.stl: expected CAD in STEP, IGES or BREP, found" tessellate "$DATA/cube.stl"
+  assert_fails_with 1 "cube.stl: expected CAD in STEP, IGES, BREP or FreeCAD.s FCStd, found" tessellate "$DATA/cube.stl"
   sed 's/MANIFOLD_SOLID_BREP/TESSELLATED_SOLID/' box.step >triangles.step
   assert_fails_with 1 "triangles.step: expected bodies with exact faces, found some of triangles" tessellate triangles.step
   sed 's/ADVANCED_FACE/NO_SUCH_FACE/' box.step >unknown.step
@@ -552,4 +556,55 @@ PYTHON
   tessellate "$DATA/simp.step" -o one.tar
   tessellate "$DATA/simp.step" --threads 1 -o other.tar
   assert_same_bytes one.tar other.tar
+}
+
+# fcstd KIND...: KIND.FCStd by tests/data/fcstd.py.
+fcstd() {
+  local kind
+  for kind in "$@"; do $PYTHON "$DATA/fcstd.py" "$kind" >"$kind.FCStd"; done
+}
+
+@test "FreeCAD's documents: what they show, where FreeCAD has it, with labels, and faces of constraints and colours" {
+  # By FreeCAD itself, Part.getShape(object).BoundBox, its places are these.
+  local plate='plate [0.0, 0.0, 0.0] [20.0, 10.0, 4.0]' foot='Fuß [8.0, 3.0, -6.0] [10.0, 5.0, 0.0]' link='second foot [16.0, 6.0, -6.0] [18.0, 8.0, 0.0]'
+  run_apart tessellate "$DATA/legs.FCStd" --stats stats.json -o legs.tar
+  assert_success
+  assert_equal "$stderr" ""
+  holds 'stats["unit"] == "millimetre"' stats.json
+  assert_equal "$(surface legs.tar 'bodies()')" "$plate; $foot; $link"
+  # The plate has a hole of radius 2; FreeCAD's constraint is on its face at x = 20.
+  assert_equal "$(surface legs.tar 'round(volumes()[0]), volumes()[1:], area(tags_of("clamp")[0]), float(points[triangles[triangle_tags == tags_of("clamp")[0]]][:, :, 0].min())')" \
+    "(750, [24.0, 24.0], 40.0, 20.0)"
+  gzip -c "$DATA/legs.FCStd" | tessellate >piped.tar
+  assert_equal "$(surface piped.tar 'bodies()')" "$plate; $foot; $link"
+  fcstd coloured hidden array
+  # A hidden object is none; of two names of a face the constraint's is its name.
+  tessellate coloured.FCStd -o coloured.tar
+  assert_equal "$(surface coloured.tar 'bodies()')" "$plate; $foot"
+  assert_equal "$(surface coloured.tar 'sorted(names["surfaces"].values())')" "['clamp', 'colour_00ff00']"
+  run_apart tessellate hidden.FCStd -o hidden.tar
+  assert_equal "$stderr" "tessellate: warning: hidden.FCStd: the document shows no solid; hidden ones are taken"
+  assert_equal "$(surface hidden.tar 'bodies()')" "$plate; $foot; $link; Hidden [40.0, 0.0, 0.0] [50.0, 10.0, 10.0]"
+  tessellate array.FCStd -o array.tar
+  assert_equal "$(surface array.tar 'bodies()')" "$plate; $foot; $link; second foot [21.0, 6.0, -6.0] [23.0, 8.0, 0.0]; second foot [26.0, 6.0, -6.0] [28.0, 8.0, 0.0]"
+}
+
+@test "FreeCAD's documents that are damaged, or lead nowhere, are refused; what no tool reads is named" {
+  fcstd in-a-circle elsewhere without-shape damaged-shape cut-off short-array
+  assert_fails_with 1 "in-a-circle.FCStd: expected at most 32 levels of groups and links, found more at 'second foot'" tessellate in-a-circle.FCStd
+  assert_fails_with 1 "elsewhere.FCStd: expected feet/legs.FCStd, to which the link 'second foot' leads, found no such file" tessellate elsewhere.FCStd
+  mkdir feet && cp "$DATA/legs.FCStd" feet
+  tessellate elsewhere.FCStd -o elsewhere.tar
+  assert_equal "$(surface elsewhere.tar 'len(names["regions"])')" 3
+  assert_fails_with 1 "without-shape.FCStd: expected 'PartShape2.brp' in the FreeCAD file, found none" tessellate without-shape.FCStd
+  assert_fails_with 1 "damaged-shape.FCStd: " tessellate damaged-shape.FCStd
+  assert_fails_with 1 "cut-off.FCStd: expected well-formed XML in Document.xml, found: " tessellate cut-off.FCStd
+  assert_fails_with 1 "short-array.FCStd: expected 3 places in PlacementList, found fewer" tessellate short-array.FCStd
+  head -c 3000 "$DATA/legs.FCStd" >cut.FCStd
+  assert_fails_with 1 "cut.FCStd: expected a FreeCAD file that is whole, found a damaged zip archive: " tessellate cut.FCStd
+  printf '%%PDF-1.5' >x.pdf
+  assert_fails_with 1 "x.pdf: expected CAD in STEP, IGES, BREP or FreeCAD.s FCStd, found a PDF document$" tessellate x.pdf
+  if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
+    assert_fails_with 1 "legs.FCStd: expected a surface in .*, found a FreeCAD file; 'tessellate .*legs.FCStd | tetmesh' meshes it" tetmesh "$DATA/legs.FCStd"
+  fi
 }

@@ -369,7 +369,7 @@ tetmesh: warning: outside.obj: --keep-baffles finds no sheet that ends inside"
   # 25.4 to the third power
   assert_equal "$(volumes_of inch.mesh | grep -oE '[0-9]+\.[0-9]{2}' | sort -u)" "16387.06"
   head -c 900 knobs.3mf >cut.3mf
-  assert_fails_with 1 "cut.3mf: expected a whole 3MF file, found a damaged zip archive: .*$" tetmesh cut.3mf
+  assert_fails_with 1 "cut.3mf: expected a 3MF file that is whole, found a damaged zip archive: .*$" tetmesh cut.3mf
   python3 "$DATA/threemf.py" unit.3mf ell
   assert_fails_with 1 "unit.3mf: expected micron, millimeter, .* as the unit, found 'ell'$" tetmesh unit.3mf
 }

@@ -102,7 +102,7 @@ ForeignFile kind_of_zip(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, enough);
   const auto has = [&](std::string_view name) { return head.find(name) != std::string_view::npos; };
   if (has("3D/3dmodel.model") || has("3dmodel")) return {"a 3MF file", "; tetmesh fills it with a mesh"};
-  if (has("Document.xml")) return {"a FreeCAD file", by_cad};
+  if (has("Document.xml")) return {"a FreeCAD file", "", true};
   if (has("word/") || has("xl/") || has("ppt/")) return {"an Office document", ""};
   return {"a zip archive", unpack};
 }

@@ -1,7 +1,5 @@
 #include "formats/surfaces/threemf.hpp"
 
-#include <archive.h>
-#include <archive_entry.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,14 +16,13 @@
 #include "common/run/error.hpp"
 #include "formats/streams/group_names.hpp"
 #include "formats/streams/text_scanner.hpp"
+#include "formats/streams/zip_archive.hpp"
 #include "formats/surfaces/surface_building.hpp"
 
 namespace hexpipe::formats {
 namespace {
 
-// Archives may swell: models of more bytes, and components in components that place more, are refused.
-constexpr std::size_t most_model_bytes = std::size_t{1} << 31;
-constexpr std::size_t usual_swelling = 250, harmless_bytes = std::size_t{1} << 28;
+// Components in components may swell: those that place more are refused.
 constexpr std::size_t most_placed = 100'000, most_triangles_placed = 100'000'000, most_points_placed = 300'000'000;
 constexpr std::size_t most_name_bytes = std::size_t{1} << 28;
 constexpr int most_levels = 32;
@@ -115,10 +112,6 @@ struct Package {
   bool has_slicer_parts = false;
 };
 
-struct ArchiveEnd {
-  void operator()(archive* a) const { archive_read_free(a); }
-};
-
 // Names of parts are equal whatever the case of their letters, and may be written as in addresses ("my%20part").
 std::string part_key(std::string_view name) {
   while (name.starts_with('/')) name.remove_prefix(1);
@@ -137,43 +130,22 @@ std::string part_key(std::string_view name) {
 }
 
 Package unpack(std::string_view bytes, const std::string& name) {
-  const std::unique_ptr<archive, ArchiveEnd> zip(archive_read_new());
-  if (!zip) throw std::bad_alloc();
-  const auto fail = [&]() {
-    const char* said = archive_error_string(zip.get());
-    throw DataError::at(name, "expected a whole 3MF file, found a damaged zip archive: {}", said ? said : "no entry");
-  };
-  archive_read_support_format_zip(zip.get());
-  if (archive_read_open_memory(zip.get(), bytes.data(), bytes.size()) != ARCHIVE_OK) fail();
-  Package package;
-  const std::size_t most = std::min(most_model_bytes, std::max(harmless_bytes, usual_swelling * bytes.size()));
-  std::size_t total = 0;
-  std::array<char, 1 << 16> chunk;
-  for (archive_entry* entry = nullptr;;) {
-    const int result = archive_read_next_header(zip.get(), &entry);
-    if (result == ARCHIVE_EOF) return package;
-    if (result < ARCHIVE_WARN) fail();
-    const char* const path = archive_entry_pathname(entry);
-    const std::string_view name_in_zip = path ? path : "";
+  const auto is_settings = [](const std::string& key) { return std::ranges::count(slicer_settings, key) > 0; };
+  const auto is_wanted = [&](std::string_view name_in_zip) {
     const std::string key = part_key(name_in_zip);
-    const bool is_settings = std::ranges::count(slicer_settings, key) > 0;
-    if (!key.ends_with(".model") && key != relations && !is_settings) continue;
-    std::string text;
-    for (;;) {
-      const la_ssize_t got = archive_read_data(zip.get(), chunk.data(), chunk.size());
-      if (got < 0) fail();
-      if (got == 0) break;
-      text.append(chunk.data(), static_cast<std::size_t>(got));
-      if ((total += static_cast<std::size_t>(got)) > most)
-        throw DataError::at(name, "expected models of at most {} bytes in the 3MF file, found more", most);
-    }
-    if (is_settings)
+    return key.ends_with(".model") || key == relations || is_settings(key);
+  };
+  Package package;
+  for (auto& [name_in_zip, text] : unpack_zip(bytes, name, "a 3MF file", is_wanted)) {
+    std::string key = part_key(name_in_zip);
+    if (is_settings(key))
       package.has_slicer_parts =
           package.has_slicer_parts ||
           std::ranges::any_of(slicer_parts, [&](std::string_view part) { return text.find(part) != text.npos; });
     else
-      package.parts[key] = {std::string(name_in_zip), std::move(text)};
+      package.parts[std::move(key)] = {std::move(name_in_zip), std::move(text)};
   }
+  return package;
 }
 
 double millimetres_in(std::string_view unit, const std::string& file) {

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   const CLI::App* command_line = nullptr;
   const auto declare = [&](CLI::App& app) {
     command_line = &app;
-    app.add_option("input", options.input, "A surface (STL, OBJ, PLY, OFF, 3MF), or CAD (STEP, IGES, BREP)")
+    app.add_option("input", options.input, "A surface (STL, OBJ, PLY, OFF, 3MF), or CAD (STEP, IGES, BREP, FreeCAD)")
         ->type_name("FILE")
         ->default_str("");
     app.add_option("--size", options.size,

@@ -33,7 +33,7 @@ bool has_ending(const std::string& path, std::initializer_list<std::string_view>
 }
 
 bool is_cad(const std::string& path) {
-  return has_ending(path, {".step", ".stp", ".iges", ".igs", ".brep"});
+  return has_ending(path, {".step", ".stp", ".stpz", ".iges", ".igs", ".brep", ".brp", ".fcstd"});
 }
 
 std::string kept_file(const PipeOptions& options, std::string_view product) {

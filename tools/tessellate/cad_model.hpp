@@ -1,5 +1,5 @@
 #pragma once
-// A CAD model: how it is read (STEP, IGES and BREP, recognized by content), its bodies, and the names of its shapes.
+// A CAD model: how it is read (STEP, IGES, BREP and FreeCAD, recognized by content), its bodies, and the names of its shapes.
 
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>

@@ -33,7 +33,7 @@ formats::Input open_cad(const std::string& path) {
 int main(int argc, char** argv) {
   const ToolInfo info{
       .name = "tessellate",
-      .summary = "Make triangles of a CAD file (STEP, IGES, BREP), with its curves, bodies and names.",
+      .summary = "Make triangles of a CAD file (STEP, IGES, BREP, FreeCAD), with its curves, bodies and names.",
       .example = "tessellate part.step | tetmesh --size 3 | findhex | buildgraph | initsol | assemble -o part.vtu",
       .reads = {},
       .product = std::nullopt,
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   std::string path = "-", output_path, overlaps = "refuse";
   bool compress = false;
   const auto declare = [&](CLI::App& app) {
-    app.add_option("cad", path, "A file in STEP, IGES or BREP; standard input if it is '-' or missing")
+    app.add_option("cad", path, "A file in STEP, IGES, BREP or FreeCAD's FCStd; standard input if it is '-' or missing")
         ->type_name("FILE");
     app.add_option("--deviation", options.deviation,
                    "How far triangles may be from the CAD's surface [a hundredth of the size that tetmesh chooses]")

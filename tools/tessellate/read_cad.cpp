@@ -28,13 +28,16 @@
 #include <string_view>
 
 #include "common/run/error.hpp"
+#include "formats/streams/foreign_files.hpp"
 #include "formats/streams/text_scanner.hpp"
+#include "tools/tessellate/freecad.hpp"
 #include "tools/tessellate/occt_names.hpp"
 #include "tools/tessellate/step_files.hpp"
 
 namespace hexpipe::tessellate {
 namespace {
 
+constexpr std::string_view expected = "expected CAD in STEP, IGES, BREP or FreeCAD's FCStd";
 constexpr std::string_view step_begin = "ISO-10303-21";
 
 // Whether a line of IGES ends with the number 1 behind the letter of its section. Some programs fill numbers up by
@@ -257,17 +260,25 @@ std::string message_of(const Standard_Failure& failure) {
 CadModel read_cad(formats::Input& input) {
   const std::string bytes = input.read_all();
   const std::string& name = input.name();
-  if (bytes.empty()) throw DataError::at(name, "expected CAD in STEP, IGES or BREP, found nothing: it is empty");
+  if (bytes.empty()) throw DataError::at(name, "{}, found nothing: it is empty", expected);
   const std::string_view text = formats::without_byte_order_mark(bytes);
   try {
     if (text.substr(0, 4096).find(step_begin) != std::string_view::npos) return read_step(bytes, name, input.path());
     if (looks_like_brep(text)) return read_brep(bytes, name);
     if (looks_like_iges(text)) return read_iges(bytes, name, input.path());
+    if (looks_like_freecad(bytes)) {
+      TopoDS_Shape whole;
+      CadModel model = read_freecad(bytes, name, input.path(), whole);
+      finish(whole, name, model);
+      return model;
+    }
   } catch (const Standard_Failure& failure) {
     throw DataError::at(name, "OpenCASCADE cannot read it: {}", message_of(failure));
   }
-  throw DataError::at(name, "expected CAD in STEP, IGES or BREP, found {}",
-                      formats::quote_found(formats::TextScanner(text, name).peek_word()));
+  const auto kind = formats::kind_of_foreign_file(text);
+  throw DataError::at(name, "{}, found {}{}", expected,
+                      kind ? kind->name : formats::quote_found(formats::TextScanner(text, name).peek_word()),
+                      kind ? kind->remedy : "");
 }
 
 }  // namespace hexpipe::tessellate
