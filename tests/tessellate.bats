@@ -364,8 +364,29 @@ END
   assert_success
   assert_equal "$stderr" "tessellate: warning: closed-shell.step: there are no solids: shells that are closed are taken for bodies, 1 body"
   assert_equal "$(surface shell.tar 'round(volume(), 9)')" 64.0
-  assert_fails_with 1 "sheets.step: expected bodies, found no solid, and 1 shell of 5 faces that is not closed; 4 edges of a single face, the first from \(.*, 30\) to \(.*, 30\)$" tessellate sheets.step
+  assert_fails_with 1 "sheets.step: expected bodies, found no solid, and 1 shell of 5 faces that is not closed; 4 edges of a single face, the first from \(.*, 30\) to \(.*, 30\) \(--open writes its faces for wrap, which closes gaps\)$" tessellate sheets.step
   assert_fails_with 1 "nothing.step: expected bodies, found no solid and no face" tessellate nothing.step
+}
+
+@test "--open writes faces that enclose nothing, without sides, and wrap closes them" {
+  step sheets box baffle nothing
+  run_apart tessellate sheets.step --open --stats stats.json -o open.tar
+  assert_success
+  assert_equal "$stderr" ""
+  # A box of 10 x 20 x 30 without its top.
+  assert_equal "$(surface open.tar 'len(triangles), len(set(map(tuple, points.tolist()))), open_edges(), "sides" in arrays, sum(area(int(t)) for t in set(triangle_tags.tolist()))')" "(10, 8, 4, False, 2000.0)"
+  holds 'stats["bodies"] == 0 and stats["faces"] == 5' stats.json
+  # Bodies and loose faces are all there.
+  tessellate -q baffle.step --open -o baffle.tar
+  assert_equal "$(surface baffle.tar 'len(triangles), "vane" in names["surfaces"].values(), "regions" in names')" "(14, True, False)"
+  assert_fails_with 1 "nothing.step: expected faces, found none" tessellate nothing.step --open
+  assert_fails_with 2 "--open excludes --join|--join excludes --open" tessellate box.step --open --join
+  if [[ -x "$HEXPIPE_BIN/wrap" ]]; then
+    # Its open side is 10 wide.
+    tessellate -q sheets.step --open | wrap -q --gap 12 -o closed.tar
+    assert_equal "$(surface closed.tar 'open_edges(), round(volume() / 600) ')" "(0, 10)"
+    assert_fails_with 1 "expected a surface that encloses a room .*; its widest hole, 4 edges around \(5, 10, 30\), is about 13.3 wide" wrap open.tar --gap 4
+  fi
 }
 
 @test "faces that belong to no body are told, and kept as baffles if asked for" {

@@ -1,5 +1,6 @@
 #pragma once
-// A CAD model: how it is read (STEP, IGES, BREP and FreeCAD, recognized by content), its bodies, and the names of its shapes.
+// A CAD model: how it is read (STEP, IGES, BREP and FreeCAD, recognized by content), its bodies, and the names of its
+// shapes.
 
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
@@ -68,9 +69,12 @@ struct CadModel {
 // OpenCASCADE's message about a failure, or at least its kind.
 std::string message_of(const Standard_Failure& failure);
 
-// Throws DataError if the file is empty, cut off, not CAD, or without bodies. Closed shells and faces that can be sewn
-// to such become bodies, with a warning.
-CadModel read_cad(formats::Input& input);
+// The end of a message about faces that do not enclose bodies, or whose triangles do not.
+inline constexpr const char* way_out = " (--open writes its faces for wrap, which closes gaps)";
+
+// Throws DataError if the file is empty, cut off, not CAD, or without bodies, if it needs some. Closed shells and faces
+// that can be sewn to such become bodies then, with a warning.
+CadModel read_cad(formats::Input& input, bool needs_bodies);
 
 // For files without solids: closed shells become bodies, loose faces are sewn. Throws DataError if that gives nothing
 // closed.
@@ -79,6 +83,9 @@ void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel&
 // Leaves those bodies that have one of these names or, where none has it, numbers (from 1, in the order of the file),
 // which then are numbered anew. Throws DataError for a name that is neither.
 void keep_bodies(const std::vector<std::string>& wanted, const std::string& source, CadModel& model);
+
+// Makes one body of all bodies and sheets, which need not be closed. Throws DataError if there are no faces.
+void put_together(const std::string& source, CadModel& model);
 
 // Heals the bodies that OpenCASCADE finds faulty, with a warning.
 void heal_bodies(CadModel& model);

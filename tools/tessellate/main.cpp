@@ -58,15 +58,22 @@ int main(int argc, char** argv) {
     app.add_option("--unit", options.unit, "Write lengths in metres or millimetres [the file's own unit]")
         ->group(group::first)
         ->check(one_of({"m", "mm"}));
-    app.add_flag("--join", options.join, "Let bodies that touch share their common faces, edges and corners");
-    app.add_option("--overlaps", overlaps,
-                   "Whose what two bodies have in common is: refuse them, or cut it off the other than the first, last "
-                   "or smaller one, and join them [refuse]")
-        ->check(one_of(rules))
-        ->type_name("RULE");
-    app.add_flag(
+    CLI::Option* open =
+        app.add_flag("--open", options.open,
+                     "Write all faces, whether they enclose bodies or not, for wrap, which closes gaps between them");
+    CLI::Option* join =
+        app.add_flag("--join", options.join, "Let bodies that touch share their common faces, edges and corners");
+    CLI::Option* of_overlaps =
+        app.add_option(
+               "--overlaps", overlaps,
+               "Whose what two bodies have in common is: refuse them, or cut it off the other than the first, last "
+               "or smaller one, and join them [refuse]")
+            ->check(one_of(rules))
+            ->type_name("RULE");
+    CLI::Option* baffles = app.add_flag(
         "--keep-baffles", options.keep_baffles,
         "Keep faces inside that bound no body, joined to the faces that they meet, for tetmesh --keep-baffles");
+    for (CLI::Option* of_bodies : {join, of_overlaps, baffles}) open->excludes(of_bodies);
     outside_history(
         app.add_option("-o,--output", output_path, "Write to a file, not to standard output: .tar, .obj, .stl or .msh"))
         ->group(group::first)

@@ -16,6 +16,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Solid.hxx>
 #include <TopoDS_Vertex.hxx>
@@ -139,9 +140,9 @@ void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel&
     act = "its faces are sewn to bodies";
   }
   if (model.bodies.empty())
-    throw DataError::at(source, "expected bodies, found no solid, and {} of {} that {} not closed{}",
+    throw DataError::at(source, "expected bodies, found no solid, and {} of {} that {} not closed{}{}",
                         open > 0 ? counted(open, "shell") : "sheets", counted(faces, "face"), open == 1 ? "is" : "are",
-                        gap);
+                        gap, way_out);
   model.warnings.push_back(fmt::format("there are no solids: {}, {}", act, counted_bodies(model.bodies.size())));
   add_open_shells(shells, model);
 }
@@ -172,6 +173,17 @@ void keep_bodies(const std::vector<std::string>& wanted, const std::string& sour
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     if (is_kept[i]) kept.push_back(std::move(model.bodies[i]));
   model.bodies = std::move(kept);
+}
+
+void put_together(const std::string& source, CadModel& model) {
+  BRep_Builder builder;
+  TopoDS_Compound whole;
+  builder.MakeCompound(whole);
+  for (const CadBody& body : model.bodies) builder.Add(whole, body.solid);
+  for (const TopoDS_Shape& sheet : model.sheets) builder.Add(whole, sheet);
+  if (!TopExp_Explorer(whole, TopAbs_FACE).More()) throw DataError::at(source, "expected faces, found none");
+  model.bodies = {{whole, {}}};
+  model.sheets.clear();
 }
 
 void heal_bodies(CadModel& model) {

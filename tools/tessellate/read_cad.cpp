@@ -112,15 +112,15 @@ TopoDS_Shape whole_of(const Handle(TDocStd_Document) & document) {
   return whole;
 }
 
-void finish(const TopoDS_Shape& whole, const std::string& name, CadModel& model) {
-  if (model.bodies.empty())
+void finish(const TopoDS_Shape& whole, const std::string& name, bool needs_bodies, CadModel& model) {
+  if (model.bodies.empty() && needs_bodies)
     make_bodies(whole, name, model);
   else
     find_sheets(whole, model);
 }
 
 // `path` is where other files with parts are sought beside, empty for the current folder.
-CadModel read_step(const std::string& bytes, const std::string& name, const std::string& path) {
+CadModel read_step(const std::string& bytes, const std::string& name, const std::string& path, bool needs_bodies) {
   check_end_of_step(bytes, name);
   STEPCAFControl_Controller::Init();
   STEPCAFControl_Reader reader;
@@ -164,7 +164,7 @@ CadModel read_step(const std::string& bytes, const std::string& name, const std:
         name,
         "expected bodies with exact faces, found some of triangles (TESSELLATED_SOLID), which OpenCASCADE "
         "does not read; STL keeps triangles, too");
-  finish(whole, name, model);
+  finish(whole, name, needs_bodies, model);
   return model;
 }
 
@@ -209,7 +209,7 @@ bool names_are_whole(const Handle(IGESData_IGESModel) & model) {
   return true;
 }
 
-CadModel read_iges(const std::string& bytes, const std::string& name, const std::string& path) {
+CadModel read_iges(const std::string& bytes, const std::string& name, const std::string& path, bool needs_bodies) {
   if (!ends_as_iges(bytes))
     throw DataError::at(name, "expected a line of section T at the end of an IGES file, found none: it is cut off");
   const NamedFile file(path, bytes);
@@ -232,11 +232,11 @@ CadModel read_iges(const std::string& bytes, const std::string& name, const std:
     throw DataError::at(name, "expected shapes in an IGES file, found none that OpenCASCADE can make");
   add_document_names(document, model.names);
   add_bodies(document, model);
-  finish(whole_of(document), name, model);
+  finish(whole_of(document), name, needs_bodies, model);
   return model;
 }
 
-CadModel read_brep(const std::string& bytes, const std::string& name) {
+CadModel read_brep(const std::string& bytes, const std::string& name, bool needs_bodies) {
   std::istringstream stream(bytes);
   TopoDS_Shape whole;
   BRepTools::Read(whole, stream, BRep_Builder());
@@ -246,7 +246,7 @@ CadModel read_brep(const std::string& bytes, const std::string& name) {
   model.names_unit = false;
   for (TopExp_Explorer solid(whole, TopAbs_SOLID); solid.More(); solid.Next())
     model.bodies.push_back({solid.Current(), {}});
-  finish(whole, name, model);
+  finish(whole, name, needs_bodies, model);
   return model;
 }
 
@@ -257,19 +257,20 @@ std::string message_of(const Standard_Failure& failure) {
   return std::string(message.empty() ? failure.DynamicType()->Name() : message);
 }
 
-CadModel read_cad(formats::Input& input) {
+CadModel read_cad(formats::Input& input, bool needs_bodies) {
   const std::string bytes = input.read_all();
   const std::string& name = input.name();
   if (bytes.empty()) throw DataError::at(name, "{}, found nothing: it is empty", expected);
   const std::string_view text = formats::without_byte_order_mark(bytes);
   try {
-    if (text.substr(0, 4096).find(step_begin) != std::string_view::npos) return read_step(bytes, name, input.path());
-    if (looks_like_brep(text)) return read_brep(bytes, name);
-    if (looks_like_iges(text)) return read_iges(bytes, name, input.path());
+    if (text.substr(0, 4096).find(step_begin) != std::string_view::npos)
+      return read_step(bytes, name, input.path(), needs_bodies);
+    if (looks_like_brep(text)) return read_brep(bytes, name, needs_bodies);
+    if (looks_like_iges(text)) return read_iges(bytes, name, input.path(), needs_bodies);
     if (looks_like_freecad(bytes)) {
       TopoDS_Shape whole;
       CadModel model = read_freecad(bytes, name, input.path(), whole);
-      finish(whole, name, model);
+      finish(whole, name, needs_bodies, model);
       return model;
     }
   } catch (const Standard_Failure& failure) {

@@ -51,17 +51,21 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
   const MutedCout muted;
   Message::DefaultMessenger()->ChangePrinters().Clear();
   std::optional<Step> step(std::in_place, "reading the model", 0, 0.4);
-  CadModel model = read_cad(input);
+  CadModel model = read_cad(input, !options.open);
   const LengthUnit unit = wanted_unit(model, options);
   TessellateResult result;
   try {
     step.emplace("checking bodies", 0.4, 0.6);
     if (!options.bodies.empty()) keep_bodies(options.bodies, input.name(), model);
     heal_bodies(model);
-    if (!options.keep_baffles) leave_out_sheets(model);
+    if (options.open)
+      put_together(input.name(), model);
+    else if (!options.keep_baffles)
+      leave_out_sheets(model);
     if (options.join || options.keep_baffles || options.overlaps != Overlaps::refuse)
       result.overlaps = join_bodies(input.name(), options.overlaps, model);
-    TriangulationOptions triangulation{.angle = options.angle, .keep_baffles = options.keep_baffles};
+    TriangulationOptions triangulation{
+        .angle = options.angle, .keep_baffles = options.keep_baffles, .open = options.open};
     if (options.deviation) triangulation.deviation = *options.deviation * unit.millimetres;
     step.emplace("making triangles", 0.6);
     Triangulation made = triangulate(model, triangulation, input.name());
@@ -75,12 +79,16 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
     result.collapsed_edges = made.made_anew.collapsed;
     result.gap_triangles = made.gap_triangles;
     result.joined_nodes = made.joined_nodes;
+    if (made.empty_faces > 0)
+      model.warnings.push_back(fmt::format("OpenCASCADE cannot make triangles of {}, which {} left out",
+                                           made.empty_faces == 1 ? "a face" : fmt::format("{} faces", made.empty_faces),
+                                           made.empty_faces == 1 ? "is" : "are"));
     if (result.crossings > 0) model.warnings.push_back(text_about(made.made_anew, result.deviation));
   } catch (const Standard_Failure& failure) {
     throw DataError::at(input.name(), "OpenCASCADE failed: {}", message_of(failure));
   }
   for (Vec3& p : result.surface.points) p = {p.x / unit.millimetres, p.y / unit.millimetres, p.z / unit.millimetres};
-  result.bodies = model.bodies.size();
+  result.bodies = options.open ? 0 : model.bodies.size();
   result.warnings = std::move(model.warnings);
   if (model.names_unit || options.unit) result.unit = unit.name;
   if (!options.unit && unit.name != "millimetre")

@@ -19,6 +19,7 @@ struct TessellateOptions {
   std::optional<std::string> unit = {};  // m or mm; nothing: the file's own
   std::vector<std::string> bodies = {};  // names or numbers of those that are wanted; nothing: all
   bool keep_baffles = false;             // faces inside that bound no body
+  bool open = false;                     // all faces, whether they bound bodies or not
   bool join = false;                     // bodies that touch share their common faces, edges and vertices
   Overlaps overlaps = Overlaps::refuse;  // any other rule joins, too
 };

@@ -49,6 +49,8 @@ namespace hexpipe::tessellate {
 namespace {
 
 constexpr double deviation_of_size = 0.01;
+// A size for faces that enclose nothing, whose walls have no thickness.
+constexpr double size_of_diagonal = 0.05;
 
 // How fine triangles are, beside what the options say.
 struct Fineness {
@@ -141,11 +143,15 @@ class Triangulator {
     close_tips();
     add_curves();
     number_points();
-    check_closed();
-    name_regions();
-    keep_shape();
     Attempt attempt;
-    find_crossings(attempt);
+    if (options_.open) {
+      result_.surface.sides.clear();
+    } else {
+      check_closed();
+      name_regions();
+      find_crossings(attempt);
+    }
+    keep_shape();
     attempt.made = std::move(result_);
     return attempt;
   }
@@ -273,7 +279,10 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
   }
   TopLoc_Location place;
   const Handle(Poly_Triangulation) triangles = triangles_of(face, place);
-  if (triangles.IsNull()) return empty_faces_.push_back(face);
+  if (triangles.IsNull()) {
+    options_.open ? static_cast<void>(++result_.empty_faces) : empty_faces_.push_back(face);
+    return;
+  }
   const auto first = static_cast<std::int32_t>(nodes_.size());
   const auto numbered = [&](Standard_Integer node) { return first + node - 1; };
   add_nodes(face, triangles, place, first);
@@ -350,11 +359,11 @@ std::vector<std::int32_t> Triangulator::nodes_along(const TopoDS_Edge& edge, con
 // With those that are missing. They are turned as the face's surface is.
 void Triangulator::add_triangles(const TopoDS_Face& face, const std::vector<NodeEdge>& border,
                                  std::vector<Triangle> triangles, bool is_mirrored, std::int32_t region) {
-  const FilledGaps gaps = fill_gaps(face, border, triangles, nodes_, result_.deviation);
+  const FilledGaps gaps = options_.open ? FilledGaps() : fill_gaps(face, border, triangles, nodes_, result_.deviation);
   if (triangles.empty() && gaps.triangles.empty() && gaps.joins.empty()) fail_at(face, region);
   if (!gaps.are_closed)
-    throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g})", region,
-                        title_of(face), gaps.place.x, gaps.place.y, gaps.place.z);
+    throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g}){}",
+                        region, title_of(face), gaps.place.x, gaps.place.y, gaps.place.z, way_out);
   for (const Vec3& p : gaps.nodes) {
     nodes_.push_back(p);
     same_.add();
@@ -377,7 +386,8 @@ void Triangulator::add_triangles(const TopoDS_Face& face, const std::vector<Node
 }
 
 void Triangulator::fail_at(const TopoDS_Face& face, std::int32_t region) const {
-  throw DataError::at(source_, "{} of body {}: OpenCASCADE cannot make triangles of it", title_of(face), region);
+  throw DataError::at(source_, "{} of body {}: OpenCASCADE cannot make triangles of it{}", title_of(face), region,
+                      way_out);
 }
 
 void Triangulator::add_nodes(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles,
@@ -553,8 +563,8 @@ void Triangulator::check_closed() const {
     for (const auto& [edge, balance] : balances)
       if (balance.count != 0) {
         const Vec3& p = surface.points[edge[0]];
-        throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g})",
-                            region, title_of(TopoDS::Face(faces_.FindKey(balance.face))), p.x, p.y, p.z);
+        throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g}){}",
+                            region, title_of(TopoDS::Face(faces_.FindKey(balance.face))), p.x, p.y, p.z, way_out);
       }
 }
 
@@ -590,6 +600,12 @@ TopTools_IndexedMapOfShape with_neighbours(const TopTools_IndexedMapOfShape& fac
   return result;
 }
 
+double diagonal_of(const TopoDS_Compound& whole) {
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(whole, box, Standard_False, Standard_False);
+  return std::sqrt(box.SquareExtent());
+}
+
 // Nothing if OpenCASCADE fails at it.
 std::optional<Attempt> attempt_anew(const CadModel& model, const TopoDS_Compound& whole,
                                     const TriangulationOptions& options, const Fineness& fineness, double deviation,
@@ -610,18 +626,17 @@ std::optional<Attempt> attempt_anew(const CadModel& model, const TopoDS_Compound
 
 double default_size_of(const CadModel& model) {
   const TopoDS_Compound whole = compound_of(model);
-  Bnd_Box box;
-  BRepBndLib::AddOptimal(whole, box, Standard_False, Standard_False);
   GProp_GProps area, volume;
   BRepGProp::SurfaceProperties(whole, area);
   BRepGProp::VolumeProperties(whole, volume);
-  return default_size({std::sqrt(box.SquareExtent()), area.Mass(), std::abs(volume.Mass())},
+  return default_size({diagonal_of(whole), area.Mass(), std::abs(volume.Mass())},
                       std::numeric_limits<double>::infinity());
 }
 
 Triangulation triangulate(const CadModel& model, const TriangulationOptions& options, const std::string& source) {
   const TopoDS_Compound whole = compound_of(model);
-  const double deviation = options.deviation.value_or(deviation_of_size * default_size_of(model));
+  const double deviation = options.deviation.value_or(
+      deviation_of_size * (options.open ? size_of_diagonal * diagonal_of(whole) : default_size_of(model)));
   mesh(whole, deviation, options.angle);
   Attempt first = Triangulator(model, whole, options, deviation, source).run();
   if (first.crossings == 0) return std::move(first.made);

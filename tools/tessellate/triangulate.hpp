@@ -15,6 +15,7 @@ struct TriangulationOptions {
   double angle = 15;                     // degrees, between neighbours on a smooth face
   double smooth_angle = 2;               // degrees: a curve between faces that differ by no more does not count
   bool keep_baffles = false;             // faces inside stay, with the same body on both sides
+  bool open = false;                     // faces need not enclose anything: triangles have no sides, and may leave gaps
 };
 
 // Triangles of one body that crossed each other as OpenCASCADE made them first.
@@ -30,6 +31,7 @@ struct Triangulation {
   std::size_t faces = 0, curves = 0;
   double deviation = 0;
   std::size_t gap_triangles = 0, joined_nodes = 0;  // where OpenCASCADE's triangles left gaps (face_gaps.hpp)
+  std::size_t empty_faces = 0;                      // open ones of which OpenCASCADE made no triangles
   MadeAnew made_anew;
 };
 

@@ -9,12 +9,10 @@
 #include "common/run/error.hpp"
 #include "common/run/option_checks.hpp"
 #include "common/run/tool_main.hpp"
-#include "formats/meshes/mesh_surface.hpp"
 #include "formats/pipeline/bundle.hpp"
 #include "formats/pipeline/history.hpp"
 #include "formats/pipeline/surface_file.hpp"
 #include "formats/streams/output.hpp"
-#include "formats/surfaces/surface_files.hpp"
 #include "tools/wrap/wrap.hpp"
 
 using namespace hexpipe;
@@ -24,10 +22,7 @@ namespace {
 formats::SurfaceSoup read_surface(const std::string& path) {
   if (path == "-" && isatty(STDIN_FILENO))
     throw UsageError("nothing to read: name a surface, or pipe one to standard input (see wrap --help)");
-  formats::Input input = formats::Input::open(path);
-  if (formats::looks_like_mesh_surface(input.peek(formats::bytes_that_tell_mesh)))
-    return formats::read_mesh_surface(input);
-  return formats::read_surface(input);
+  return pipeline::read_surface_file(path);
 }
 
 // "3", or "2%" of the diagonal of the surface's box.
@@ -70,7 +65,8 @@ int main(int argc, char** argv) {
   wrap::WrapOptions options{.gap = 0, .feature_angle = default_feature_angle, .features = true};
   bool compress = false;
   const auto declare = [&](CLI::App& app) {
-    app.add_option("file", path, "Triangles in any surface format; '-' or nothing: standard input")->type_name("FILE");
+    app.add_option("file", path, "Triangles in any surface format, or a bundle; '-' or nothing: standard input")
+        ->type_name("FILE");
     app.add_option("--gap", gap,
                    "Close holes and gaps narrower than this, a length or a percentage of the diagonal; finer detail is "
                    "lost inside corners")

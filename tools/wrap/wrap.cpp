@@ -75,7 +75,7 @@ void give_tags(const formats::SurfaceSoup& soup, const TriangleTree& input, form
     const Vec3 middle = (1.0 / 3) * (surface.points[a] + surface.points[b] + surface.points[c]);
     surface.tags.push_back(soup.tags[input.nearest(middle).triangle]);
   }
-  surface.names = soup.names;
+  surface.names.surfaces = soup.names.surfaces;
   surface.has_own_tags = soup.has_own_tags;
 }
 

@@ -202,7 +202,7 @@ const char* hint_for_cad(const formats::SurfaceSoup& soup) {
   if (soup.sides.empty()) return "";
   const auto is_first = [](const auto& sides) { return sides[0] <= 1 && sides[1] <= 1; };
   return std::ranges::all_of(soup.sides, is_first)
-             ? "; from CAD, try another --deviation, larger or smaller, or --angle of tessellate"
+             ? "; from CAD, try another --deviation, larger or smaller, or --angle of tessellate, or tessellate --open | wrap"
              : "; where bodies touch, tessellate --join makes one face of two";
 }
 
