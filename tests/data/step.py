@@ -137,6 +137,21 @@ def baffles(*spans):
     return step
 
 
+def in_channel():
+    """A channel with a C as its profile, and a thin plate on the inner side of each arm."""
+    step = Step()
+    profile = [(0, 0), (6, 0), (6, 1), (1, 1), (1, 5), (6, 5), (6, 6), (0, 6)]
+    count = len(profile)
+    faces = {"bottom": tuple(reversed(range(count))), "top": tuple(range(count, 2 * count))}
+    for i in range(count):
+        faces[f"side {i}"] = (i, (i + 1) % count, (i + 1) % count + count, i + count)
+    shell = step.shell([(x, y, z) for z in (0, 2) for x, y in profile], faces)
+    step.items.append(step.add(f"MANIFOLD_SOLID_BREP('channel',{shell})"))
+    step.box((2, 1, 0.5), (5, 1.25, 1.5), "lower plate")
+    step.box((2, 4.75, 0.5), (5, 5, 1.5), "upper plate")
+    return step
+
+
 def roof(rise):
     """A box 4 x 4 x 2 whose top rises to a ridge in the middle, which is less sharp than 40 degrees."""
     step = Step()
@@ -163,6 +178,7 @@ KINDS = {
     "touching": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((4, 0, 0), (8, 4, 4))).text(),
     "half-touching": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((4, 1, 1), (7, 3, 3))).text(),
     "overlapping": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((2, 2, 2), (6, 6, 6))).text(),
+    "in-channel": lambda: in_channel().text(),
     "in-another": lambda: bodies(((0, 0, 0), (6, 6, 6)), ((2, 2, 2), (4, 4, 4))).text(),
     "through-another": lambda: bodies(((0, 0, 0), (6, 2, 2)), ((2, -1, -1), (4, 3, 3))).text(),
     "apart": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((5, 0, 0), (9, 4, 4))).text(),

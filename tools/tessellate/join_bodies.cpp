@@ -5,11 +5,14 @@
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepGProp.hxx>
+#include <BRepLib.hxx>
 #include <GProp_GProps.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Solid.hxx>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -164,13 +167,21 @@ void tell_lost_sheets(CadModel& model, BRepAlgoAPI_BuilderAlgo& fuse) {
                     lost == 1 ? "" : "s", lost == 1 ? "is" : "are", lost == 1 ? "" : "s"));
 }
 
+// Where bodies share faces, one that is inside out could not be told from its triangles.
+TopoDS_Shape turned_outward(const TopoDS_Shape& body) {
+  if (body.ShapeType() != TopAbs_SOLID) return body;
+  TopoDS_Solid solid = TopoDS::Solid(body);
+  BRepLib::OrientClosedSolid(solid);
+  return solid;
+}
+
 // The bodies become those that the general fuse has made of them.
 void take_joined(CadModel& model, BRepAlgoAPI_BuilderAlgo& fuse) {
   for (const TopoDS_Shape& sheet : model.sheets) carry(sheet, fuse, model.names);
   std::vector<CadBody> joined;
   for (const CadBody& body : model.bodies) {
     carry(body.solid, fuse, model.names);
-    for (const TopoDS_Shape& part : parts_of(body.solid, fuse)) joined.push_back({part, body.name});
+    for (const TopoDS_Shape& part : parts_of(body.solid, fuse)) joined.push_back({turned_outward(part), body.name});
   }
   model.bodies = std::move(joined);
   tell_lost_sheets(model, fuse);

@@ -192,6 +192,7 @@ class Triangulator {
   std::vector<std::int32_t> tags_;                // of faces
   std::map<int, std::vector<std::size_t>> done_;  // triangles, by number of the face
   std::vector<TopoDS_Face> empty_faces_;          // of the current body
+  bool shares_faces_ = false;                     // whether the current body shares some with another one
   std::vector<NodeEdge> tips_;                    // nodes that become one (face_gaps.hpp)
   std::vector<Vec3> nodes_;
   JoinedSets same_;
@@ -245,19 +246,20 @@ void Triangulator::choose_tags() {
 void Triangulator::add_body(std::size_t body) {
   const auto region = static_cast<std::int32_t>(body + 1);
   const std::size_t first = result_.surface.triangles.size();
+  shares_faces_ = false;
   for (TopExp_Explorer face(model_.bodies[body].solid, TopAbs_FACE); face.More(); face.Next())
     add_face(TopoDS::Face(face.Current()), region);
   for (const TopoDS_Face& face : std::exchange(empty_faces_, {})) add_empty_face(face, region);
-  // A solid's faces may point inward. A solid that shares faces with another one has the right orientation.
+  // A solid's faces may point inward. A solid that shares faces with another one has the right orientation, and the rest
+  // of its triangles enclose nothing.
+  if (shares_faces_) return;
   double volume = 0;
-  bool is_alone = true;
   for (std::size_t i = first; i < result_.surface.triangles.size(); ++i) {
     if (result_.surface.sides[i][0] == result_.surface.sides[i][1]) continue;  // a baffle
     const auto [a, b, c] = result_.surface.triangles[i];
     volume += det(nodes_[a] - nodes_[0], nodes_[b] - nodes_[0], nodes_[c] - nodes_[0]);
-    is_alone = is_alone && result_.surface.sides[i][0] == region;
   }
-  if (volume >= 0 || !is_alone) return;
+  if (volume >= 0) return;
   for (std::size_t i = first; i < result_.surface.triangles.size(); ++i)
     std::swap(result_.surface.triangles[i][1], result_.surface.triangles[i][2]);
 }
@@ -273,6 +275,7 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
         options_.keep_baffles ? std::array{region, region} : std::array<std::int32_t, 2>{0, 0};
     for (const std::size_t t : found->second) {
       auto& sides = result_.surface.sides[t];
+      shares_faces_ = shares_faces_ || sides[0] != region;
       sides = sides[0] == region ? of_wall : std::array<std::int32_t, 2>{sides[0], region};
     }
     return;
