@@ -337,6 +337,14 @@ END
     assert_equal "$(surface cut.tar 'volumes(), sorted(names["regions"].items())')" "([$one.0, $other.0], [('1', 'body 1'), ('2', 'body 2')])"
     holds 'stats["overlaps"] == 1 and stats["bodies"] == 2' stats.json
   done
+  # Where two are the same, all triangles are there twice.
+  step twice
+  if [[ -x "$HEXPIPE_BIN/tetmesh" ]]; then
+    tessellate -q twice.step -o twice.tar
+    assert_fails_with 1 "twice.tar: .*expected distinct triangles, found 12 with .* \\(bodies that overlap: see tessellate --overlaps\\)" tetmesh twice.tar -o x.tar
+  fi
+  tessellate -q twice.step --overlaps small -o once.tar
+  assert_equal "$(surface once.tar 'volumes()')" "[64.0]"
   # One that lies in another, of 216 and 8, leaves a cavity there, or nothing.
   tessellate -q in-another.step --overlaps small -o small.tar
   assert_equal "$(surface small.tar 'volumes()')" "[208.0, 8.0]"

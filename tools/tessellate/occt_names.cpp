@@ -120,8 +120,10 @@ class BodyCollector {
 
 std::string cad_name(const std::string& text) {
   std::string name = formats::clean_name(text);
-  // OpenCASCADE and NX write these if there is no name.
-  const bool is_none = name == "NONE" || name.starts_with("=>[") || name.starts_with("Open CASCADE STEP translator");
+  // OpenCASCADE, NX and others write these if there is no name: numbers of entities among them.
+  const bool is_number = name.size() > 1 && name[0] == '#' && name.find_first_not_of("0123456789", 1) == name.npos;
+  const bool is_none =
+      is_number || name == "NONE" || name.starts_with("=>[") || name.starts_with("Open CASCADE STEP translator");
   return is_none ? std::string() : name;
 }
 

@@ -250,8 +250,8 @@ void Triangulator::add_body(std::size_t body) {
   for (TopExp_Explorer face(model_.bodies[body].solid, TopAbs_FACE); face.More(); face.Next())
     add_face(TopoDS::Face(face.Current()), region);
   for (const TopoDS_Face& face : std::exchange(empty_faces_, {})) add_empty_face(face, region);
-  // A solid's faces may point inward. A solid that shares faces with another one has the right orientation, and the rest
-  // of its triangles enclose nothing.
+  // A solid's faces may point inward. A solid that shares faces with another one has the right orientation, and the
+  // rest of its triangles enclose nothing.
   if (shares_faces_) return;
   double volume = 0;
   for (std::size_t i = first; i < result_.surface.triangles.size(); ++i) {

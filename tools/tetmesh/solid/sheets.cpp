@@ -195,9 +195,9 @@ void SideFinder::join_repeated() {
   if (repeated > 0)
     throw DataError::at(
         soup_.place_of(first_repeated[0]),
-        "expected distinct triangles, found {} with the corners of another; the first repeats {} {} (see "
-        "--repair)",
-        repeated, soup_.place_unit(), soup_.places[first_repeated[1]]);
+        "expected distinct triangles, found {} with the corners of another; the first repeats {} {} ({})", repeated,
+        soup_.place_unit(), soup_.places[first_repeated[1]],
+        soup_.sides.empty() ? "see --repair" : "bodies that overlap: see tessellate --overlaps");
   if (!any_joined) return;
   std::vector<bool> interfaces;
   for (std::size_t i = 0; i < kept.size(); ++i)

@@ -197,13 +197,17 @@ void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::
                       count == 1 ? "1 vertex" : fmt::format("{} vertices", count), text_of(soup.points[v]));
 }
 
-// The options of tessellate that may help with intersections. Only bundles of tessellate say what is on the sides.
+// The options of tessellate that may help with intersections. Only its bundles say what is on the sides; bodies that
+// share a face were joined.
 const char* hint_for_cad(const formats::SurfaceSoup& soup) {
   if (soup.sides.empty()) return "";
-  const auto is_first = [](const auto& sides) { return sides[0] <= 1 && sides[1] <= 1; };
-  return std::ranges::all_of(soup.sides, is_first)
-             ? "; from CAD, try another --deviation, larger or smaller, or --angle of tessellate, or tessellate --open | wrap"
-             : "; where bodies touch, tessellate --join makes one face of two";
+  const auto is_of_another = [](const auto& sides) { return sides[0] > 1 || sides[1] > 1; };
+  const auto is_shared = [](const auto& sides) { return sides[0] > 0 && sides[1] > 0; };
+  return std::ranges::any_of(soup.sides, is_of_another) && std::ranges::none_of(soup.sides, is_shared)
+             ? "; where bodies touch, tessellate --join makes one face of two"
+             : "; from CAD, try another --deviation, larger or smaller, or --angle of tessellate, or tessellate --open "
+               "| "
+               "wrap";
 }
 
 // How many of the pairs are of two bodies that --unite takes: they are closed, as far as the edges go that they have
