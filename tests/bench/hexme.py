@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""hexme.py FOLDER [--only WORD] [--size S] [--search SECONDS] [--threads N] [--join] [--short-features X] - CAD models through the whole pipeline.
+"""hexme.py FOLDER [--only WORD] [--size S] [--search SECONDS] [--threads N] [--join] [--overlaps RULE] [--short-features X] - CAD models through the whole pipeline.
 
-Runs each .step, .stp and .brep below FOLDER, and each .geo where gmsh is installed (OpenCASCADE models only), through
+Runs each .step, .stp, .brep, .iges, .igs and .FCStd below FOLDER, and each .geo where gmsh is installed (OpenCASCADE models only), through
 tessellate | tetmesh | findhex | buildgraph | initsol | lns | assemble at tetmesh's own size, and prints a table: the share of
 hexes by volume and by number, the least scaled Jacobian of hexes and of the other cells, the distance of the boundary from the
 triangles of the CAD as a part of the diagonal, and processor seconds. A model that is refused has the message in its row.
@@ -21,7 +21,7 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BIN = os.environ.get("HEXPIPE_BIN", os.path.join(ROOT, "build", "bin"))
 CHECK = os.path.join(ROOT, "tests", "checkers", "meshstats.py")
-ENDINGS = (".step", ".stp", ".brep", ".geo")
+ENDINGS = (".step", ".stp", ".brep", ".iges", ".igs", ".fcstd", ".geo")
 GOAL = 94.0
 
 
@@ -58,7 +58,7 @@ def mesh(path, folder, args):
     tool = lambda name: os.path.join(BIN, name)
     threads = ["--threads", str(args.threads)] if args.threads else []
     size = ["--size", args.size] if args.size else []
-    join = ["--join"] if args.join else []
+    join = (["--join"] if args.join else []) + (["--overlaps", args.overlaps] if args.overlaps else [])
     short = ["--short-features", args.short_features] if args.short_features else []
     warnings = run([tool("tessellate"), cad_of(path, folder), *join, "-o", file("surface.tar")], args.limit)[1]
     warnings += run([tool("tetmesh"), file("surface.tar"), *size, *short, *threads, "--stats", file("tetmesh.json"), "-o", file("mesh.tar")], args.limit)[1]
@@ -90,6 +90,7 @@ def main():
     parser.add_argument("--search", type=float, default=10, help="seconds of initsol, and of lns")
     parser.add_argument("--threads", type=int, help="of each tool")
     parser.add_argument("--join", action="store_true", help="bodies that touch share their faces")
+    parser.add_argument("--overlaps", help="tessellate's --overlaps, which also joins bodies that touch")
     parser.add_argument("--short-features", help="tetmesh's --short-features [0]")
     parser.add_argument("--limit", type=float, default=1800, help="seconds after which a stage is given up")
     args = parser.parse_args()
