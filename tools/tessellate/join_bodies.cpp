@@ -26,6 +26,9 @@
 namespace hexpipe::tessellate {
 namespace {
 
+// Volumes that differ by less than this share of them are equal.
+constexpr double rounding = 1e-9;
+
 double volume_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::VolumeProperties(shape, properties);
@@ -43,6 +46,16 @@ void set_up(Algorithm& algorithm, const TopTools_ListOfShape& arguments) {
   algorithm.SetArguments(arguments);
   algorithm.SetNonDestructive(Standard_True);
   algorithm.SetRunParallel(Standard_False);
+}
+
+// One that is inside out would be the space around it.
+void turn_outward(CadModel& model) {
+  for (CadBody& body : model.bodies) {
+    if (body.solid.ShapeType() != TopAbs_SOLID) continue;
+    TopoDS_Solid solid = TopoDS::Solid(body.solid);
+    BRepLib::OrientClosedSolid(solid);
+    body.solid = solid;
+  }
 }
 
 // All bodies and sheets.
@@ -111,7 +124,7 @@ std::string text_about(const std::vector<Overlap>& overlaps, const CadModel& mod
                      more == 0 ? "" : fmt::format(", and {} more pair{}", more, more == 1 ? "" : "s"));
 }
 
-const char* name_of(Overlaps rule) {
+const char* winner_by(Overlaps rule) {
   return rule == Overlaps::first ? "first" : rule == Overlaps::last ? "last" : "smaller";
 }
 
@@ -121,7 +134,7 @@ void give_away(const std::vector<Overlap>& overlaps, Overlaps rule, const std::s
   for (const CadBody& body : model.bodies) volumes.push_back(rule == Overlaps::small ? volume_of(body.solid) : 0);
   std::vector<TopTools_ListOfShape> cut_by(model.bodies.size());
   for (const auto& [one, other, volume, share] : overlaps) {
-    const bool is_others = rule == Overlaps::last || volumes[other] < volumes[one];
+    const bool is_others = rule == Overlaps::last || volumes[other] < (1 - rounding) * volumes[one];
     const auto [winner, loser] = is_others ? std::pair(other, one) : std::pair(one, other);
     cut_by[loser].Append(model.bodies[winner].solid);
   }
@@ -167,21 +180,13 @@ void tell_lost_sheets(CadModel& model, BRepAlgoAPI_BuilderAlgo& fuse) {
                     lost == 1 ? "" : "s", lost == 1 ? "is" : "are", lost == 1 ? "" : "s"));
 }
 
-// Where bodies share faces, one that is inside out could not be told from its triangles.
-TopoDS_Shape turned_outward(const TopoDS_Shape& body) {
-  if (body.ShapeType() != TopAbs_SOLID) return body;
-  TopoDS_Solid solid = TopoDS::Solid(body);
-  BRepLib::OrientClosedSolid(solid);
-  return solid;
-}
-
 // The bodies become those that the general fuse has made of them.
 void take_joined(CadModel& model, BRepAlgoAPI_BuilderAlgo& fuse) {
   for (const TopoDS_Shape& sheet : model.sheets) carry(sheet, fuse, model.names);
   std::vector<CadBody> joined;
   for (const CadBody& body : model.bodies) {
     carry(body.solid, fuse, model.names);
-    for (const TopoDS_Shape& part : parts_of(body.solid, fuse)) joined.push_back({turned_outward(part), body.name});
+    for (const TopoDS_Shape& part : parts_of(body.solid, fuse)) joined.push_back({part, body.name});
   }
   model.bodies = std::move(joined);
   tell_lost_sheets(model, fuse);
@@ -192,6 +197,7 @@ void take_joined(CadModel& model, BRepAlgoAPI_BuilderAlgo& fuse) {
 std::size_t join_bodies(const std::string& source, Overlaps rule, CadModel& model) {
   const auto is_single = [&] { return model.bodies.size() + model.sheets.size() < 2; };
   if (is_single()) return 0;
+  turn_outward(model);
   BRepAlgoAPI_BuilderAlgo fuse;
   fuse_all(model, source, fuse);
   const std::vector<Overlap> overlaps = find_overlaps(model, fuse);
@@ -206,7 +212,7 @@ std::size_t join_bodies(const std::string& source, Overlaps rule, CadModel& mode
                         "is, --body takes one alone)",
                         text);
   model.warnings.push_back(
-      fmt::format("bodies overlapped: {}; that is the {} one's now (--overlaps)", text, name_of(rule)));
+      fmt::format("bodies overlapped: {}; that is the {} one's now (--overlaps)", text, winner_by(rule)));
   give_away(overlaps, rule, source, model);
   if (is_single()) return overlaps.size();
   BRepAlgoAPI_BuilderAlgo again;

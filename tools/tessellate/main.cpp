@@ -39,13 +39,14 @@ int main(int argc, char** argv) {
       .product = std::nullopt,
   };
   tessellate::TessellateOptions options;
-  std::string path = "-", output_path, overlaps = "refuse";
+  std::string path = "-", output_path, overlaps;
   bool compress = false;
   const auto declare = [&](CLI::App& app) {
     app.add_option("cad", path, "A file in STEP, IGES, BREP or FreeCAD's FCStd; standard input if it is '-' or missing")
         ->type_name("FILE");
     app.add_option("--deviation", options.deviation,
-                   "How far triangles may be from the CAD's surface [a hundredth of the size that tetmesh chooses]")
+                   "How far triangles may be from the CAD's surface [a hundredth of the size that tetmesh chooses; "
+                   "with --open, of a twentieth of the diagonal]")
         ->check(number_between(1e-12, 1e12))
         ->type_name("LENGTH");
     app.add_option("--body", options.bodies,
@@ -66,8 +67,8 @@ int main(int argc, char** argv) {
     CLI::Option* of_overlaps =
         app.add_option(
                "--overlaps", overlaps,
-               "Whose what two bodies have in common is: refuse them, or cut it off the other than the first, last "
-               "or smaller one, and join them [refuse]")
+               "Join bodies, and of two that overlap cut one: what both have is the first, last or smaller one's; or "
+               "refuse them, as --join does")
             ->check(one_of(rules))
             ->type_name("RULE");
     CLI::Option* baffles = app.add_flag(
@@ -83,7 +84,8 @@ int main(int argc, char** argv) {
   const auto run = [&](RunContext& context) {
     const std::string_view format = pipeline::surface_format_of(output_path);
     formats::Input input = open_cad(path);
-    options.overlaps = rules.at(overlaps);
+    if (!overlaps.empty()) options.overlaps = rules.at(overlaps);
+    options.join = options.join || !overlaps.empty();
     const tessellate::TessellateResult result = tessellate::tessellate(input, options);
     for (const std::string& warning : result.warnings) context.warn(input.name() + ": " + warning);
     formats::Output output(output_path);

@@ -266,10 +266,10 @@ CadModel read_cad(formats::Input& input, bool needs_bodies) {
     if (text.substr(0, 4096).find(step_begin) != std::string_view::npos)
       return read_step(bytes, name, input.path(), needs_bodies);
     if (looks_like_brep(text)) return read_brep(bytes, name, needs_bodies);
-    if (looks_like_iges(text)) return read_iges(bytes, name, input.path(), needs_bodies);
+    if (looks_like_iges(text)) return read_iges(bytes, name, input.is_decoded() ? "" : input.path(), needs_bodies);
     if (looks_like_freecad(bytes)) {
       TopoDS_Shape whole;
-      CadModel model = read_freecad(bytes, name, input.path(), whole);
+      CadModel model = read_freecad(bytes, name, input.path(), needs_bodies, whole);
       finish(whole, name, needs_bodies, model);
       return model;
     }

@@ -137,9 +137,11 @@ std::string faulty_entities(const Handle(XSControl_WorkSession) & session) {
   for (checks.Start(); checks.More(); checks.Next()) {
     const Handle(Interface_Check) check = checks.Value();
     if (checks.Number() < 1 || check->NbFails() == 0) continue;
-    if (is_harmless(entities->Value(checks.Number())->DynamicType()->Name(), check->CFail(1))) continue;
-    if (++faulty == 1)
-      first = fmt::format("#{}: {}", entities->IdentLabel(entities->Value(checks.Number())), check->CFail(1));
+    const Handle(Standard_Transient) entity = entities->Value(checks.Number());
+    Standard_Integer fail = 1;
+    while (fail <= check->NbFails() && is_harmless(entity->DynamicType()->Name(), check->CFail(fail))) ++fail;
+    if (fail > check->NbFails()) continue;
+    if (++faulty == 1) first = fmt::format("#{}: {}", entities->IdentLabel(entity), check->CFail(fail));
   }
   if (faulty == 0) return {};
   return fmt::format("{} faulty, and may be taken for something else; the first is {}",

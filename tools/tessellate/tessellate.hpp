@@ -21,7 +21,7 @@ struct TessellateOptions {
   bool keep_baffles = false;             // faces inside that bound no body
   bool open = false;                     // all faces, whether they bound bodies or not
   bool join = false;                     // bodies that touch share their common faces, edges and vertices
-  Overlaps overlaps = Overlaps::refuse;  // any other rule joins, too
+  Overlaps overlaps = Overlaps::refuse;  // where bodies are joined
 };
 
 struct TessellateResult {

@@ -266,8 +266,10 @@ void Triangulator::add_body(std::size_t body) {
 
 void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
   const bool is_inside = face.Orientation() == TopAbs_INTERNAL;
-  if (face.Orientation() == TopAbs_EXTERNAL || (is_inside && !options_.keep_baffles)) return;
+  const bool is_of_none = face.Orientation() == TopAbs_EXTERNAL || (is_inside && !options_.keep_baffles);
+  if (is_of_none && !options_.open) return;
   const int number = faces_.FindIndex(face);
+  if (options_.open && done_.contains(number)) return;
   if (const auto found = done_.find(number); found != done_.end()) {
     // The triangles of the body on the other side get this region. If it is the same body, they are a wall inside and
     // go, or stay as a baffle.
@@ -283,7 +285,10 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
   TopLoc_Location place;
   const Handle(Poly_Triangulation) triangles = triangles_of(face, place);
   if (triangles.IsNull()) {
-    options_.open ? static_cast<void>(++result_.empty_faces) : empty_faces_.push_back(face);
+    if (options_.open)
+      ++result_.empty_faces;
+    else
+      empty_faces_.push_back(face);
     return;
   }
   const auto first = static_cast<std::int32_t>(nodes_.size());
@@ -383,7 +388,7 @@ void Triangulator::add_triangles(const TopoDS_Face& face, const std::vector<Node
     done_[number].push_back(result_.surface.triangles.size());
     result_.surface.triangles.push_back({a, b, c});
     result_.surface.tags.push_back(tags_[number - 1]);
-    result_.surface.sides.push_back({region, is_inside ? region : 0});
+    result_.surface.sides.push_back({region, is_inside && !options_.open ? region : 0});
     face_of_triangle_.push_back(number);
   }
 }
