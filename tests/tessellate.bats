@@ -398,6 +398,7 @@ END
     assert_equal "$(surface closed.tar 'open_edges(), round(volume() / 600) ')" "(0, 10)"
     step named
     tessellate -q named.step --open | wrap -q -o named.tar
+    assert_equal "$(tar tf named.tar | grep history | tr '\n' ' ')" "history/01-tessellate.json history/02-wrap.json "
     assert_equal "$(surface named.tar 'sorted(names["surfaces"].values()), [round(area(tags_of(name)[0]) / 60) for name in ("inlet", "outlet")]')" "(['inlet', 'outlet'], [10, 10])"
     assert_fails_with 1 "expected a surface that encloses a room .*; its widest hole, 4 edges around \(5, 10, 30\), is about 13.3 wide" wrap open.tar --gap 4
   fi

@@ -84,9 +84,12 @@ constexpr std::pair<std::string_view, Writer> writers[] = {{"obj", write_obj}, {
 
 }  // namespace
 
-formats::SurfaceSoup read_surface_file(const std::string& path) {
+formats::SurfaceSoup read_surface_file(const std::string& path, std::vector<nlohmann::ordered_json>* history) {
   formats::Input input = formats::Input::open(path);
-  if (looks_like_bundle(input)) return read_surface_bundle(input, nullptr);
+  if (looks_like_bundle(input))
+    return read_surface_bundle(input, [&](BundleReader& member) {
+      if (history != nullptr && is_history_entry(member.name())) history->push_back(read_history_entry(member));
+    });
   return formats::looks_like_mesh_surface(input.peek(formats::bytes_that_tell_mesh)) ? formats::read_mesh_surface(input)
                                                                                      : formats::read_surface(input);
 }
@@ -111,13 +114,13 @@ std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std:
   throw UsageError(fmt::format("expected a surface as obj, stl or msh, found '{}'", format));
 }
 
-void write_surface_bundle(const formats::SurfaceSoup& surface, const nlohmann::ordered_json& history_entry,
+void write_surface_bundle(const formats::SurfaceSoup& surface, const std::vector<nlohmann::ordered_json>& history,
                           bool compress, formats::Output& output, const ExactShape* shape) {
   BundleWriter writer(output, compress);
   write_surface_members(writer, surface);
   if (shape != nullptr) write_shape_members(writer, *shape);
   if (!surface.names.empty()) writer.add_text(std::string(formats::names_member), text_of(surface.names));
-  write_history_entry(writer, history_member(1, history_entry), history_entry);
+  write_history(writer, history);
   writer.close();
 }
 

@@ -13,7 +13,8 @@
 
 namespace hexpipe::pipeline {
 
-formats::SurfaceSoup read_surface_file(const std::string& path);
+// `history` gets the entries of a bundle's history, in their order.
+formats::SurfaceSoup read_surface_file(const std::string& path, std::vector<nlohmann::ordered_json>* history = nullptr);
 
 // The format of a file by its ending: obj, stl or msh; empty for a bundle. Throws UsageError for other endings, and
 // where a bundle would go to a terminal.
@@ -24,8 +25,9 @@ std::string_view surface_format_of(const std::string& path);
 std::vector<std::string> write_surface(const formats::SurfaceSoup& surface, std::string_view format,
                                        formats::Output& output);
 
-// A bundle that begins with this tool's entry of the history. `shape`: the CAD's faces from which the surface comes.
-void write_surface_bundle(const formats::SurfaceSoup& surface, const nlohmann::ordered_json& history_entry,
+// A bundle with this history, whose last entry is that of the tool that runs. `shape`: the CAD's faces from which the
+// surface comes.
+void write_surface_bundle(const formats::SurfaceSoup& surface, const std::vector<nlohmann::ordered_json>& history,
                           bool compress, formats::Output& output, const ExactShape* shape = nullptr);
 
 }  // namespace hexpipe::pipeline

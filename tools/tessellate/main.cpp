@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
       nlohmann::ordered_json entry = pipeline::history_entry_of(context);
       entry.update(to_json(result));
       const bool is_compressed = compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format;
-      pipeline::write_surface_bundle(result.surface, entry, is_compressed, output, &result.shape);
+      pipeline::write_surface_bundle(result.surface, {entry}, is_compressed, output, &result.shape);
     } else {
       for (const std::string& change : pipeline::write_surface(result.surface, format, output)) context.warn(change);
     }

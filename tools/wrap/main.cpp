@@ -3,6 +3,8 @@
 
 #include <charconv>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/mesh/box_tree.hpp"
 #include "common/mesh/defaults.hpp"
@@ -19,10 +21,10 @@ using namespace hexpipe;
 
 namespace {
 
-formats::SurfaceSoup read_surface(const std::string& path) {
+formats::SurfaceSoup read_surface(const std::string& path, std::vector<nlohmann::ordered_json>& history) {
   if (path == "-" && isatty(STDIN_FILENO))
     throw UsageError("nothing to read: name a surface, or pipe one to standard input (see wrap --help)");
-  return pipeline::read_surface_file(path);
+  return pipeline::read_surface_file(path, &history);
 }
 
 // "3", or "2%" of the diagonal of the surface's box.
@@ -85,7 +87,8 @@ int main(int argc, char** argv) {
   };
   const auto run = [&](RunContext& context) {
     const std::string_view format = pipeline::surface_format_of(output_path);
-    const formats::SurfaceSoup soup = read_surface(path);
+    std::vector<nlohmann::ordered_json> history;
+    const formats::SurfaceSoup soup = read_surface(path, history);
     for (const std::string& warning : soup.warnings) context.warn(warning);
     options.gap = parse_gap(gap, soup);
     const wrap::WrapResult result = wrap::wrap(soup, options);
@@ -94,7 +97,8 @@ int main(int argc, char** argv) {
     if (format.empty()) {
       nlohmann::ordered_json entry = pipeline::history_entry_of(context);
       entry.update(to_json(result));
-      pipeline::write_surface_bundle(result.surface, entry,
+      history.push_back(std::move(entry));
+      pipeline::write_surface_bundle(result.surface, history,
                                      compress || pipeline::ending_of(output_path) == pipeline::compressed_bundle_format,
                                      output);
     } else {
