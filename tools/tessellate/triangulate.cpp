@@ -49,8 +49,9 @@ namespace hexpipe::tessellate {
 namespace {
 
 constexpr double deviation_of_size = 0.01;
-// A size for faces that enclose nothing, whose walls have no thickness.
-constexpr double size_of_diagonal = 0.05;
+// A size for faces that enclose nothing, or whose walls have no thickness: of a deviation of nothing OpenCASCADE would
+// make triangles for ever.
+constexpr double size_of_diagonal = 0.05, least_thickness = 1e-6;
 
 // How fine triangles are, beside what the options say.
 struct Fineness {
@@ -637,7 +638,9 @@ double default_size_of(const CadModel& model) {
   GProp_GProps area, volume;
   BRepGProp::SurfaceProperties(whole, area);
   BRepGProp::VolumeProperties(whole, volume);
-  return default_size({diagonal_of(whole), area.Mass(), std::abs(volume.Mass())},
+  const double diagonal = diagonal_of(whole), thickness = 2 * std::abs(volume.Mass()) / std::abs(area.Mass());
+  if (!(thickness > least_thickness * diagonal)) return size_of_diagonal * diagonal;
+  return default_size({diagonal, std::abs(area.Mass()), std::abs(volume.Mass())},
                       std::numeric_limits<double>::infinity());
 }
 
