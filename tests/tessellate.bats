@@ -327,6 +327,9 @@ END
   assert_fails_with 1 "overlapping.step: expected bodies that touch at most, found some that overlap: body 1 \('body 1'\) and body 2 \('body 2'\) by 12.5 % of the smaller one \(--overlaps .*\)" \
     tessellate overlapping.step --join
   assert_fails_with 1 "in-another.step: .* overlap: body 1 \('body 1'\) and body 2 \('body 2'\) by 100 % of the smaller one" tessellate in-another.step --overlaps refuse
+  # Numbers are those of the file.
+  step two-of-three
+  assert_fails_with 1 "two-of-three.step: .* overlap: body 2 \('body 2'\) and body 3 \('body 3'\) by 12.5 %" tessellate two-of-three.step --body 2 --body 3 --join
   # A body of 64 and one of 64 with 8 in common; equal ones: the first is the smaller one.
   local rule
   for rule in first:64:56 last:56:64 small:64:56; do

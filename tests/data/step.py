@@ -178,6 +178,7 @@ KINDS = {
     "touching": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((4, 0, 0), (8, 4, 4))).text(),
     "half-touching": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((4, 1, 1), (7, 3, 3))).text(),
     "overlapping": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((2, 2, 2), (6, 6, 6))).text(),
+    "two-of-three": lambda: bodies(((10, 0, 0), (14, 4, 4)), ((0, 0, 0), (4, 4, 4)), ((2, 2, 2), (6, 6, 6))).text(),
     "twice": lambda: bodies(((0, 0, 0), (4, 4, 4)), ((0, 0, 0), (4, 4, 4))).text(),
     "in-channel": lambda: in_channel().text(),
     "in-another": lambda: bodies(((0, 0, 0), (6, 6, 6)), ((2, 2, 2), (4, 4, 4))).text(),

@@ -48,7 +48,8 @@ void carry_names(const TopoDS_Shape& shape, ShapeNames& names, ChangeOf&& change
 
 struct CadBody {
   TopoDS_Shape solid;
-  std::string name;  // may be empty
+  std::string name;        // may be empty
+  std::size_t number = 0;  // in the file, from 1, for messages
 };
 
 // The length of a unit.

@@ -37,8 +37,8 @@ double volume_of(const TopoDS_Shape& shape) {
 
 // By number, for several may have one name.
 std::string name_of(const CadModel& model, std::size_t body) {
-  const std::string& name = model.bodies[body].name;
-  return name.empty() ? fmt::format("body {}", body + 1) : fmt::format("body {} ('{}')", body + 1, name);
+  const auto& [solid, name, number] = model.bodies[body];
+  return name.empty() ? fmt::format("body {}", number) : fmt::format("body {} ('{}')", number, name);
 }
 
 template <class Algorithm>
@@ -158,7 +158,7 @@ void give_away(const std::vector<Overlap>& overlaps, Overlaps rule, const std::s
     for (const TopoDS_Shape& winner : cut_by[i]) carry(winner, cut, model.names);
     const std::size_t before = left.size();
     for (TopExp_Explorer solid(cut.Shape(), TopAbs_SOLID); solid.More(); solid.Next())
-      left.push_back({solid.Current(), body.name});
+      left.push_back({solid.Current(), body.name, body.number});
     if (left.size() == before)
       model.warnings.push_back(fmt::format("{} lies in others, and is left out (--overlaps)", name_of(model, i)));
   }
@@ -186,7 +186,7 @@ void take_joined(CadModel& model, BRepAlgoAPI_BuilderAlgo& fuse) {
   std::vector<CadBody> joined;
   for (const CadBody& body : model.bodies) {
     carry(body.solid, fuse, model.names);
-    for (const TopoDS_Shape& part : parts_of(body.solid, fuse)) joined.push_back({part, body.name});
+    for (const TopoDS_Shape& part : parts_of(body.solid, fuse)) joined.push_back({part, body.name, body.number});
   }
   model.bodies = std::move(joined);
   tell_lost_sheets(model, fuse);

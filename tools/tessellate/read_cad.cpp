@@ -257,7 +257,9 @@ std::string message_of(const Standard_Failure& failure) {
   return std::string(message.empty() ? failure.DynamicType()->Name() : message);
 }
 
-CadModel read_cad(formats::Input& input, bool needs_bodies) {
+namespace {
+
+CadModel read_by_content(formats::Input& input, bool needs_bodies) {
   const std::string bytes = input.read_all();
   const std::string& name = input.name();
   if (bytes.empty()) throw DataError::at(name, "{}, found nothing: it is empty", expected);
@@ -280,6 +282,14 @@ CadModel read_cad(formats::Input& input, bool needs_bodies) {
   throw DataError::at(name, "{}, found {}{}", expected,
                       kind ? kind->name : formats::quote_found(formats::TextScanner(text, name).peek_word()),
                       kind ? kind->remedy : "");
+}
+
+}  // namespace
+
+CadModel read_cad(formats::Input& input, bool needs_bodies) {
+  CadModel model = read_by_content(input, needs_bodies);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) model.bodies[i].number = i + 1;
+  return model;
 }
 
 }  // namespace hexpipe::tessellate

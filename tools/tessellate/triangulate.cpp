@@ -183,6 +183,7 @@ class Triangulator {
   void keep_shape();
   void find_crossings(Attempt& attempt) const;
   std::string title_of(const TopoDS_Face& face) const;
+  std::size_t number_of(std::int32_t region) const { return model_.bodies[region - 1].number; }
 
   const CadModel& model_;
   const TriangulationOptions& options_;
@@ -372,7 +373,7 @@ void Triangulator::add_triangles(const TopoDS_Face& face, const std::vector<Node
   if (triangles.empty() && gaps.triangles.empty() && gaps.joins.empty()) fail_at(face, region);
   if (!gaps.are_closed)
     throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g}){}",
-                        region, title_of(face), gaps.place.x, gaps.place.y, gaps.place.z, way_out);
+                        number_of(region), title_of(face), gaps.place.x, gaps.place.y, gaps.place.z, way_out);
   for (const Vec3& p : gaps.nodes) {
     nodes_.push_back(p);
     same_.add();
@@ -395,8 +396,8 @@ void Triangulator::add_triangles(const TopoDS_Face& face, const std::vector<Node
 }
 
 void Triangulator::fail_at(const TopoDS_Face& face, std::int32_t region) const {
-  throw DataError::at(source_, "{} of body {}: OpenCASCADE cannot make triangles of it{}", title_of(face), region,
-                      way_out);
+  throw DataError::at(source_, "{} of body {}: OpenCASCADE cannot make triangles of it{}", title_of(face),
+                      number_of(region), way_out);
 }
 
 void Triangulator::add_nodes(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles,
@@ -573,7 +574,8 @@ void Triangulator::check_closed() const {
       if (balance.count != 0) {
         const Vec3& p = surface.points[edge[0]];
         throw DataError::at(source_, "body {} is not closed: the triangles of {} leave a gap at ({:g}, {:g}, {:g}){}",
-                            region, title_of(TopoDS::Face(faces_.FindKey(balance.face))), p.x, p.y, p.z, way_out);
+                            number_of(region), title_of(TopoDS::Face(faces_.FindKey(balance.face))), p.x, p.y, p.z,
+                            way_out);
       }
 }
 
