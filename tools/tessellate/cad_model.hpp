@@ -4,6 +4,7 @@
 
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
 #include <cstddef>
 #include <map>
@@ -70,6 +71,9 @@ struct CadModel {
 // OpenCASCADE's message about a failure, or at least its kind.
 std::string message_of(const Standard_Failure& failure);
 
+// "1 face", "2 faces".
+std::string counted(int count, const char* noun);
+
 // The end of a message about faces that do not enclose bodies, or whose triangles do not.
 inline constexpr const char* way_out = " (--open writes its faces for wrap, which closes gaps)";
 
@@ -84,6 +88,8 @@ void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel&
 // Leaves those bodies that have one of these names or, where none has it, numbers (from 1, in the order of the file),
 // which then are numbered anew. Throws DataError for a name that is neither.
 void keep_bodies(const std::vector<std::string>& wanted, const std::string& source, CadModel& model);
+
+TopoDS_Compound compound_of(const CadModel& model);
 
 // Makes one body of all bodies and sheets, which need not be closed. Throws DataError if there are no faces.
 void put_together(const std::string& source, CadModel& model);

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "common/run/error.hpp"
+#include "formats/streams/foreign_files.hpp"
 #include "formats/streams/input.hpp"
 #include "formats/streams/text_scanner.hpp"
 #include "tools/tessellate/freecad_document.hpp"
@@ -157,8 +158,8 @@ class FreecadReader {
 }  // namespace
 
 bool looks_like_freecad(std::string_view bytes) {
-  constexpr std::size_t enough = 1 << 16;
-  return bytes.starts_with("PK\3\4") && bytes.substr(0, enough).find("Document.xml") != std::string_view::npos;
+  const auto kind = formats::kind_of_foreign_file(bytes);
+  return kind && kind->is_cad && bytes.starts_with("PK");
 }
 
 CadModel read_freecad(const std::string& bytes, const std::string& name, const std::string& path, bool needs_bodies,

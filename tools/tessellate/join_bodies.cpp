@@ -41,8 +41,7 @@ std::string name_of(const CadModel& model, std::size_t body) {
   return name.empty() ? fmt::format("body {}", number) : fmt::format("body {} ('{}')", number, name);
 }
 
-template <class Algorithm>
-void set_up(Algorithm& algorithm, const TopTools_ListOfShape& arguments) {
+void set_up(BRepAlgoAPI_BuilderAlgo& algorithm, const TopTools_ListOfShape& arguments) {
   algorithm.SetArguments(arguments);
   algorithm.SetNonDestructive(Standard_True);
   algorithm.SetRunParallel(Standard_False);
@@ -175,9 +174,8 @@ void tell_lost_sheets(CadModel& model, BRepAlgoAPI_BuilderAlgo& fuse) {
   for (const TopoDS_Shape& sheet : model.sheets)
     for (const TopoDS_Shape& part : parts_of(sheet, fuse)) lost += inside.Contains(part) ? 0 : 1;
   if (lost > 0)
-    model.warnings.push_back(
-        fmt::format("{} face{} outside of all bodies, or on their boundary, {} no baffle{} and left out", lost,
-                    lost == 1 ? "" : "s", lost == 1 ? "is" : "are", lost == 1 ? "" : "s"));
+    model.warnings.push_back(fmt::format("{} outside of all bodies, or on their boundary, {} no baffle{} and left out",
+                                         counted(lost, "face"), lost == 1 ? "is" : "are", lost == 1 ? "" : "s"));
 }
 
 // The bodies become those that the general fuse has made of them.

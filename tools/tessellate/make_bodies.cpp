@@ -41,10 +41,6 @@ int count_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum type) {
   return found.Extent();
 }
 
-std::string counted(int count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string counted_bodies(std::size_t count) {
   return count == 1 ? "1 body" : fmt::format("{} bodies", count);
 }
@@ -123,6 +119,18 @@ SewnFaces sewn(const TopoDS_Shape& whole, ShapeNames& names) {
 
 }  // namespace
 
+std::string counted(int count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+TopoDS_Compound compound_of(const CadModel& model) {
+  BRep_Builder builder;
+  TopoDS_Compound whole;
+  builder.MakeCompound(whole);
+  for (const CadBody& body : model.bodies) builder.Add(whole, body.solid);
+  return whole;
+}
+
 void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel& model) {
   const int faces = count_of(whole, TopAbs_FACE);
   if (faces == 0)
@@ -176,11 +184,8 @@ void keep_bodies(const std::vector<std::string>& wanted, const std::string& sour
 }
 
 void put_together(const std::string& source, CadModel& model) {
-  BRep_Builder builder;
-  TopoDS_Compound whole;
-  builder.MakeCompound(whole);
-  for (const CadBody& body : model.bodies) builder.Add(whole, body.solid);
-  for (const TopoDS_Shape& sheet : model.sheets) builder.Add(whole, sheet);
+  TopoDS_Compound whole = compound_of(model);
+  for (const TopoDS_Shape& sheet : model.sheets) BRep_Builder().Add(whole, sheet);
   if (!TopExp_Explorer(whole, TopAbs_FACE).More()) throw DataError::at(source, "expected faces, found none");
   model.bodies = {{whole, {}}};
   model.sheets.clear();

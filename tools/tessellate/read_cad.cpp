@@ -112,15 +112,9 @@ TopoDS_Shape whole_of(const Handle(TDocStd_Document) & document) {
   return whole;
 }
 
-void finish(const TopoDS_Shape& whole, const std::string& name, bool needs_bodies, CadModel& model) {
-  if (model.bodies.empty() && needs_bodies)
-    make_bodies(whole, name, model);
-  else
-    find_sheets(whole, model);
-}
-
-// `path` is where other files with parts are sought beside, empty for the current folder.
-CadModel read_step(const std::string& bytes, const std::string& name, const std::string& path, bool needs_bodies) {
+// As the other readers, gives all shapes of the file to `whole`, also those that are in no body. `path` is where other
+// files with parts are sought beside, empty for the current folder.
+CadModel read_step(const std::string& bytes, const std::string& name, const std::string& path, TopoDS_Shape& whole) {
   check_end_of_step(bytes, name);
   STEPCAFControl_Controller::Init();
   STEPCAFControl_Reader reader;
@@ -158,13 +152,12 @@ CadModel read_step(const std::string& bytes, const std::string& name, const std:
   add_bodies(document, model);
   // Where there is no other body, their shells may still be sewn.
   if (!model.bodies.empty()) model.warnings.insert(model.warnings.end(), lost.begin(), lost.end());
-  const TopoDS_Shape whole = whole_of(document);
+  whole = whole_of(document);
   if (!TopExp_Explorer(whole, TopAbs_FACE).More() && bytes.find("TESSELLATED_SOLID") != std::string::npos)
     throw DataError::at(
         name,
         "expected bodies with exact faces, found some of triangles (TESSELLATED_SOLID), which OpenCASCADE "
         "does not read; STL keeps triangles, too");
-  finish(whole, name, needs_bodies, model);
   return model;
 }
 
@@ -209,7 +202,7 @@ bool names_are_whole(const Handle(IGESData_IGESModel) & model) {
   return true;
 }
 
-CadModel read_iges(const std::string& bytes, const std::string& name, const std::string& path, bool needs_bodies) {
+CadModel read_iges(const std::string& bytes, const std::string& name, const std::string& path, TopoDS_Shape& whole) {
   if (!ends_as_iges(bytes))
     throw DataError::at(name, "expected a line of section T at the end of an IGES file, found none: it is cut off");
   const NamedFile file(path, bytes);
@@ -232,13 +225,12 @@ CadModel read_iges(const std::string& bytes, const std::string& name, const std:
     throw DataError::at(name, "expected shapes in an IGES file, found none that OpenCASCADE can make");
   add_document_names(document, model.names);
   add_bodies(document, model);
-  finish(whole_of(document), name, needs_bodies, model);
+  whole = whole_of(document);
   return model;
 }
 
-CadModel read_brep(const std::string& bytes, const std::string& name, bool needs_bodies) {
+CadModel read_brep(const std::string& bytes, const std::string& name, TopoDS_Shape& whole) {
   std::istringstream stream(bytes);
-  TopoDS_Shape whole;
   BRepTools::Read(whole, stream, BRep_Builder());
   if (whole.IsNull())
     throw DataError::at(name, "expected a shape in BREP, found one that OpenCASCADE cannot read: it is cut off");
@@ -246,7 +238,6 @@ CadModel read_brep(const std::string& bytes, const std::string& name, bool needs
   model.names_unit = false;
   for (TopExp_Explorer solid(whole, TopAbs_SOLID); solid.More(); solid.Next())
     model.bodies.push_back({solid.Current(), {}});
-  finish(whole, name, needs_bodies, model);
   return model;
 }
 
@@ -259,25 +250,16 @@ std::string message_of(const Standard_Failure& failure) {
 
 namespace {
 
-CadModel read_by_content(formats::Input& input, bool needs_bodies) {
+CadModel read_by_content(formats::Input& input, bool needs_bodies, TopoDS_Shape& whole) {
   const std::string bytes = input.read_all();
   const std::string& name = input.name();
   if (bytes.empty()) throw DataError::at(name, "{}, found nothing: it is empty", expected);
   const std::string_view text = formats::without_byte_order_mark(bytes);
-  try {
-    if (text.substr(0, 4096).find(step_begin) != std::string_view::npos)
-      return read_step(bytes, name, input.path(), needs_bodies);
-    if (looks_like_brep(text)) return read_brep(bytes, name, needs_bodies);
-    if (looks_like_iges(text)) return read_iges(bytes, name, input.is_decoded() ? "" : input.path(), needs_bodies);
-    if (looks_like_freecad(bytes)) {
-      TopoDS_Shape whole;
-      CadModel model = read_freecad(bytes, name, input.path(), needs_bodies, whole);
-      finish(whole, name, needs_bodies, model);
-      return model;
-    }
-  } catch (const Standard_Failure& failure) {
-    throw DataError::at(name, "OpenCASCADE cannot read it: {}", message_of(failure));
-  }
+  if (text.substr(0, 4096).find(step_begin) != std::string_view::npos)
+    return read_step(bytes, name, input.path(), whole);
+  if (looks_like_brep(text)) return read_brep(bytes, name, whole);
+  if (looks_like_iges(text)) return read_iges(bytes, name, input.is_decoded() ? "" : input.path(), whole);
+  if (looks_like_freecad(bytes)) return read_freecad(bytes, name, input.path(), needs_bodies, whole);
   const auto kind = formats::kind_of_foreign_file(text);
   throw DataError::at(name, "{}, found {}{}", expected,
                       kind ? kind->name : formats::quote_found(formats::TextScanner(text, name).peek_word()),
@@ -287,9 +269,18 @@ CadModel read_by_content(formats::Input& input, bool needs_bodies) {
 }  // namespace
 
 CadModel read_cad(formats::Input& input, bool needs_bodies) {
-  CadModel model = read_by_content(input, needs_bodies);
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) model.bodies[i].number = i + 1;
-  return model;
+  try {
+    TopoDS_Shape whole;
+    CadModel model = read_by_content(input, needs_bodies, whole);
+    if (model.bodies.empty() && needs_bodies)
+      make_bodies(whole, input.name(), model);
+    else
+      find_sheets(whole, model);
+    for (std::size_t i = 0; i < model.bodies.size(); ++i) model.bodies[i].number = i + 1;
+    return model;
+  } catch (const Standard_Failure& failure) {
+    throw DataError::at(input.name(), "OpenCASCADE cannot read it: {}", message_of(failure));
+  }
 }
 
 }  // namespace hexpipe::tessellate

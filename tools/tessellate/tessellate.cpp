@@ -58,11 +58,12 @@ TessellateResult tessellate(formats::Input& input, const TessellateOptions& opti
     step.emplace("checking bodies", 0.4, 0.6);
     if (!options.bodies.empty()) keep_bodies(options.bodies, input.name(), model);
     heal_bodies(model);
-    if (!options.bodies.empty() && options.open) model.sheets.clear();
-    if (options.open)
+    if (options.open) {
+      if (!options.bodies.empty()) model.sheets.clear();
       put_together(input.name(), model);
-    else if (!options.keep_baffles)
+    } else if (!options.keep_baffles) {
       leave_out_sheets(model);
+    }
     if (options.join || options.keep_baffles) result.overlaps = join_bodies(input.name(), options.overlaps, model);
     TriangulationOptions triangulation{
         .angle = options.angle, .keep_baffles = options.keep_baffles, .open = options.open};

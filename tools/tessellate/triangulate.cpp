@@ -70,14 +70,6 @@ constexpr std::array fineness_where_crossing{Fineness{true, 1}, Fineness{false, 
 // So large a model is not made finer.
 constexpr std::size_t most_triangles = 1'000'000;
 
-TopoDS_Compound compound_of(const CadModel& model) {
-  BRep_Builder builder;
-  TopoDS_Compound whole;
-  builder.MakeCompound(whole);
-  for (const CadBody& body : model.bodies) builder.Add(whole, body.solid);
-  return whole;
-}
-
 // Calls visit(edge) for each edge that bounds the face, turned so that the face's surface is on its left.
 template <class Visit>
 void for_edges_around(const TopoDS_Face& face, Visit&& visit) {
@@ -251,7 +243,11 @@ void Triangulator::add_body(std::size_t body) {
   shares_faces_ = false;
   for (TopExp_Explorer face(model_.bodies[body].solid, TopAbs_FACE); face.More(); face.Next())
     add_face(TopoDS::Face(face.Current()), region);
-  for (const TopoDS_Face& face : std::exchange(empty_faces_, {})) add_empty_face(face, region);
+  const std::vector<TopoDS_Face> empty_faces = std::exchange(empty_faces_, {});
+  if (options_.open)
+    result_.empty_faces += empty_faces.size();
+  else
+    for (const TopoDS_Face& face : empty_faces) add_empty_face(face, region);
   // A solid's faces may point inward. A solid that shares faces with another one has the right orientation, and the
   // rest of its triangles enclose nothing.
   if (shares_faces_) return;
@@ -286,13 +282,7 @@ void Triangulator::add_face(const TopoDS_Face& face, std::int32_t region) {
   }
   TopLoc_Location place;
   const Handle(Poly_Triangulation) triangles = triangles_of(face, place);
-  if (triangles.IsNull()) {
-    if (options_.open)
-      ++result_.empty_faces;
-    else
-      empty_faces_.push_back(face);
-    return;
-  }
+  if (triangles.IsNull()) return empty_faces_.push_back(face);
   const auto first = static_cast<std::int32_t>(nodes_.size());
   const auto numbered = [&](Standard_Integer node) { return first + node - 1; };
   add_nodes(face, triangles, place, first);
@@ -611,7 +601,7 @@ TopTools_IndexedMapOfShape with_neighbours(const TopTools_IndexedMapOfShape& fac
   return result;
 }
 
-double diagonal_of(const TopoDS_Compound& whole) {
+double tight_diagonal_of(const TopoDS_Compound& whole) {
   Bnd_Box box;
   BRepBndLib::AddOptimal(whole, box, Standard_False, Standard_False);
   return std::sqrt(box.SquareExtent());
@@ -640,7 +630,7 @@ double default_size_of(const CadModel& model) {
   GProp_GProps area, volume;
   BRepGProp::SurfaceProperties(whole, area);
   BRepGProp::VolumeProperties(whole, volume);
-  const double diagonal = diagonal_of(whole), thickness = 2 * std::abs(volume.Mass()) / std::abs(area.Mass());
+  const double diagonal = tight_diagonal_of(whole), thickness = 2 * std::abs(volume.Mass()) / std::abs(area.Mass());
   if (!(thickness > least_thickness * diagonal)) return size_of_diagonal * diagonal;
   return default_size({diagonal, std::abs(area.Mass()), std::abs(volume.Mass())},
                       std::numeric_limits<double>::infinity());
@@ -649,7 +639,7 @@ double default_size_of(const CadModel& model) {
 Triangulation triangulate(const CadModel& model, const TriangulationOptions& options, const std::string& source) {
   const TopoDS_Compound whole = compound_of(model);
   const double deviation = options.deviation.value_or(
-      deviation_of_size * (options.open ? size_of_diagonal * diagonal_of(whole) : default_size_of(model)));
+      deviation_of_size * (options.open ? size_of_diagonal * tight_diagonal_of(whole) : default_size_of(model)));
   mesh(whole, deviation, options.angle);
   Attempt first = Triangulator(model, whole, options, deviation, source).run();
   if (first.crossings == 0) return std::move(first.made);
