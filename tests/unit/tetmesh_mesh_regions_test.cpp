@@ -78,7 +78,7 @@ TEST_F(MeshRegionsTest, HaveAnEdgeWithBothItsTriangles) {
 std::vector<std::array<int, 3>> remaining_faces(FeatureMesh mesh, const DistanceIndex& original) {
   for (const auto v : mesh.vertices())
     if (v.idx() % 4 == 0) mesh.keep(v);
-  EXPECT_EQ(remove_vertices(mesh, original, 0.1), 0u);
+  EXPECT_EQ(remove_vertices(mesh, original, {0.1, 10}), 0u);
   std::vector<std::array<int, 3>> faces;
   for (const auto f : mesh.faces()) {
     const auto [a, b, c] = mesh.corners(f);

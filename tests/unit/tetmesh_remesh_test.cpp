@@ -238,7 +238,7 @@ TEST(RemoveVertices, StaysNearThePointsThatItLeftBehindBefore) {
   refine_surface(mesh, 0.8, 1e-6);
   const auto surface_after = [&](const CloseWatch& watch) {
     FeatureMesh copy = mesh;
-    remove_vertices(copy, input, deviation, watch);
+    remove_vertices(copy, input, {deviation, 10}, watch);
     return copy.to_surface(surface);
   };
   const Surface first = surface_after({});
@@ -261,10 +261,44 @@ TEST(RemoveVertices, LeavesFacesThatAreHeld) {
       held.push_back(mesh.positions(f));
     }
   ASSERT_GT(held.size(), 100u);
-  remove_vertices(mesh, DistanceIndex(surface.points, surface.triangles), 0.5);
+  remove_vertices(mesh, DistanceIndex(surface.points, surface.triangles), {0.5, 10});
   for (const auto f : mesh.faces()) left.push_back(mesh.positions(f));
   EXPECT_LT(left.size(), held.size() + 300);
   for (const std::array<Vec3, 3>& face : held) EXPECT_NE(std::ranges::find(left, face), left.end());
+}
+
+// A pin as thin as this bends so much that edges between two rows of points would leave it.
+TEST(Remesh, LeavesNoLongEdgesWhereTheSurfaceBendsMuch) {
+  const RemeshResult result = remesh_surface(surface_of(prism(64, 0.55, 30)), {.size = 1});
+  ASSERT_EQ(result.failure, "");
+  double longest = 0, least_sine = 1;
+  for (const Triangle& t : result.surface.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 &p = result.surface.points[t[i]], &q = result.surface.points[t[(i + 1) % 3]],
+                 &r = result.surface.points[t[(i + 2) % 3]];
+      longest = std::max(longest, norm(q - p));
+      least_sine = std::min(least_sine, norm(cross(q - p, r - p)) / (norm(q - p) * norm(r - p)));
+    }
+  EXPECT_LT(longest, 2.5);
+  EXPECT_GT(least_sine, 0.05);
+}
+
+// With four points on a rim, its chords leave it by less than the deviation, and by more than removed vertices may.
+TEST(Remesh, LeavesNoPointsOfTheInputOnRims) {
+  for (const double radius : {0.45, 0.48, 0.5}) {
+    const RemeshResult result = remesh_surface(surface_of(prism(96, radius, 4)), {.size = 1});
+    ASSERT_EQ(result.failure, "");
+    double shortest = 1, longest = 0;
+    for (const Triangle& t : result.surface.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 &p = result.surface.points[t[i]], &q = result.surface.points[t[(i + 1) % 3]];
+        const Vec3 middle = 0.5 * (p + q);
+        if (p.z != q.z || std::hypot(middle.x, middle.y) < 0.65 * radius) continue;  // not along a rim
+        shortest = std::min(shortest, norm(q - p));
+        longest = std::max(longest, norm(q - p));
+      }
+    EXPECT_GT(shortest, 0.7 * longest) << radius;
+  }
 }
 
 TEST(Remesh, KeepsItsDistanceAtRoundedEdgesWithFewMorePoints) {

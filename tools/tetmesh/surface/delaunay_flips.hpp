@@ -1,8 +1,11 @@
 #pragma once
-// Lawson's flips on a half-edge mesh. They lead to triangles whose opposite angles add up to at most 180 degrees.
+// Flips on a half-edge mesh: Lawson's, which lead to triangles whose opposite angles add up to at most 180 degrees, and
+// those of caps, whose long edge may be a feature.
 
+#include <functional>
 #include <vector>
 
+#include "tools/tetmesh/sizing/size_field.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 
 namespace hexpipe::tetmesh::surface {
@@ -67,5 +70,21 @@ void flip_towards_delaunay(FeatureMesh& mesh, EdgeQueue& queue, Allow&& allow, D
     }
   }
 }
+
+// An edge that was flipped. If it was a feature, that goes by another vertex now.
+struct FlippedCap {
+  VertexH start, end, by;
+  bool was_feature;
+  double moved;  // how far the feature is from where it was at first
+};
+
+// Flips features that are the long edge of a triangle whose third corner lies beside it, nearer than `nearest` and than
+// a twentieth of its length. The feature then goes by that corner, and the triangle belongs to the other side. No
+// feature moves by more than `nearest` in all, the other side turns by at most 60 degrees, and each tag with a name
+// keeps triangles. Other such edges are flipped, too, where all three corners are on features. allow(half-edge, moved)
+// is asked about each flip before it: the triangle is that of the half-edge, and `moved` is how far the feature will be
+// from where it was at first. Returns the flips, in order.
+std::vector<FlippedCap> flip_caps(FeatureMesh& mesh, const solid::Surface& surface, const sizing::SizeField& nearest,
+                                  const std::function<bool(HalfEdgeH, double)>& allow);
 
 }  // namespace hexpipe::tetmesh::surface

@@ -73,6 +73,7 @@ solid::Surface FeatureMesh::to_surface(const solid::Surface& input) const {
   formats::SurfaceSoup soup;
   soup.text = input.text;
   soup.name = input.name;
+  soup.names = input.names;
   const std::vector<hexpipe::Vertex> number = point_numbers();
   for (const VertexHandle v : vertices())
     if (number[place(v)] == static_cast<hexpipe::Vertex>(soup.points.size())) soup.points.push_back(position(v));
@@ -244,6 +245,20 @@ FeatureMesh::VertexHandle FeatureMesh::split_face_at(FaceHandle f, const Vec3& p
   resize_attributes();
   for (const FaceHandle part : vf_range(v)) source_[part.idx()] = source_here;
   return v;
+}
+
+void FeatureMesh::flip_behind_corner(HalfedgeHandle h) {
+  const EdgeHandle e = edge_handle(h);
+  const HalfedgeHandle next = next_halfedge_handle(h);
+  const FaceHandle corner_face = face_handle(h), other = face_handle(opposite_halfedge_handle(h));
+  const EdgeHandle sides[] = {edge_handle(next), edge_handle(next_halfedge_handle(next))};
+  const VertexHandle corner = to_vertex_handle(next);
+  const EdgeRole role = std::exchange(edge_role_[e.idx()], EdgeRole::none);
+  flip(e);
+  source_[corner_face.idx()] = source_[other.idx()];
+  if (role == EdgeRole::none) return;
+  for (const EdgeHandle side : sides) edge_role_[side.idx()] = std::max(edge_role_[side.idx()], role);
+  on_feature_[corner.idx()] = 1;
 }
 
 // The same as OpenMesh's collapse(), which Debian builds with its checks: these look up the type of each property at

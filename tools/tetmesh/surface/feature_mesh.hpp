@@ -107,7 +107,8 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // Whether a region is on both sides of the face.
   bool is_interface(FaceHandle f) const { return is_interface_[source(f)]; }
 
-  // The surface as the mesh is now, with the input's tags and shells. Sheets are joined again.
+  // The surface as the mesh is now, with the input's tags, names and shells, but without its curves. Sheets are joined
+  // again.
   solid::Surface to_surface(const solid::Surface& input) const;
   // By place, the number of its point in to_surface(); no_index where no vertex is left.
   std::vector<hexpipe::Vertex> point_numbers() const;
@@ -122,6 +123,10 @@ class FeatureMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   // Splits at a point of the edge or face; the point becomes a removable vertex, in each copy of an edge.
   VertexHandle split_edge_at(EdgeHandle e, const Vec3& p);
   VertexHandle split_face_at(FaceHandle f, const Vec3& p);
+  // The edge of h no longer joins its own ends but the corners opposite to it. What was in front of the corner of h's
+  // triangle goes to the other side, and if the edge was a feature, this goes by that corner now. Call is_flip_ok()
+  // first; not for joints.
+  void flip_behind_corner(HalfedgeHandle h);
   // Moves the start of a half-edge to its end. Call is_collapse_ok() first.
   void collapse_edge(HalfedgeHandle h);
 

@@ -47,12 +47,18 @@ struct CloseWatch {
 // left for where regions meet.
 inline constexpr std::size_t region_vertices = 8000;
 
+// What the removal of vertices may do.
+struct RemovalLimits {
+  sizing::SizeField deviation;     // from the original surface
+  sizing::SizeField longest_edge;  // of edges whose end moves, unless they were longer
+};
+
 // Feature curves stay where they are, apart from their removed vertices. No face turns over. Every removed vertex stays
-// within `deviation` of the faces that took its place, and these stay within it of the original surface, or within 1.15
-// times as much where that mends a sliver. Both are measured at few points; what is watched closely is measured at
+// within the deviation of the faces that took its place, and these stay within it of the original surface, or within
+// 1.15 times as much where that mends a sliver. Both are measured at few points; what is watched closely is measured at
 // more. Vertices that cannot be removed in this way stay. Returns their number. The mesh must have no deleted elements;
 // those of this step are left in it.
-std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation,
+std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const RemovalLimits& limits,
                             const CloseWatch& watch = {});
 
 }  // namespace hexpipe::tetmesh::surface

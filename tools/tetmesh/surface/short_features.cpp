@@ -20,6 +20,7 @@
 #include "tools/tetmesh/geometry/exact_geometry.hpp"
 #include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
+#include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/feature_curves.hpp"
 
 namespace hexpipe::tetmesh::surface {
@@ -97,30 +98,23 @@ class FeatureJoiner {
   FeatureJoiner(const solid::Surface& surface, double feature_angle, const sizing::SizeField& shortest,
                 const std::vector<bool>& stays, WallThickness& thickness)
       : surface_(surface), mesh_(surface, feature_angle), shortest_(shortest), stays_(stays), thickness_(thickness) {
+    curves_.curves = surface.curves;
+    curves_.curve_tags = surface.curve_tags;
     into_.resize(mesh_.n_vertices());
     for (std::size_t v = 0; v < into_.size(); ++v) into_[v] = static_cast<Vertex>(v);
     moved_.resize(mesh_.n_vertices());
     for (const FaceH f : mesh_.faces()) ++triangles_of_[surface.tags[mesh_.source(f)]];
   }
 
-  // The number of collapses.
+  // The number of vertices that went, or joined a feature.
   std::size_t run() {
-    find_short_curves();
-    for (const EdgeH e : mesh_.edges()) offer(e);
-    std::size_t count = 0;
-    while (!queue_.empty()) {
-      const auto [length, number] = queue_.top();
-      queue_.pop();
-      const EdgeH e(number);
-      // Its ends may have changed since, or itself.
-      if (mesh_.status(e).deleted() || length_of(e) != length || !is_short(e)) continue;
-      if (collapse(e)) ++count;
-    }
-    return count;
+    const std::size_t count = collapse_short(), joined = join_curves();
+    // What joins a feature may now be near others of its points.
+    return joined == 0 ? count : count + joined + collapse_short();
   }
 
   solid::Surface take() const;
-  // Of the given surface, those that went into corners of these triangles of the new one.
+  // Of the given surface, those that went into corners of these triangles of the new one, or joined features there.
   std::vector<Vertex> gone_into(const solid::Surface& made, std::span<const std::array<std::int32_t, 2>> pairs) const;
 
  private:
@@ -145,14 +139,18 @@ class FeatureJoiner {
     return mesh_.is_feature(e) ? on_short_curve_[e.idx()] : !are_on_one_curve(a, b, length_of(e));
   }
 
+  std::size_t collapse_short();
+  std::size_t join_curves();
   void find_short_curves();
   bool are_on_one_curve(VertexH a, VertexH b, double distance) const;
   HalfEdgeH continuation(HalfEdgeH h) const;
+  std::vector<Vertex> points_now() const;
   std::vector<Vertex> new_numbers() const;
+  void bend_curves();
   bool takes_last_of_name(EdgeH e) const;
   bool collapse(EdgeH e);
   bool can_go(HalfEdgeH h);
-  bool spares_walls(VertexH v, double move);
+  bool spares_wall(FaceH f, double move);
 
   std::size_t features_at(VertexH v) const {
     std::size_t count = 0;
@@ -172,12 +170,51 @@ class FeatureJoiner {
   const sizing::SizeField& shortest_;
   const std::vector<bool>& stays_;
   WallThickness& thickness_;
-  std::vector<bool> on_short_curve_;                  // by edge
-  std::vector<Vertex> into_;                          // by vertex
+  std::vector<bool> on_short_curve_;  // by edge
+  std::vector<Vertex> into_;          // by vertex
+  std::vector<FlippedCap> flipped_;
+  formats::SurfaceSoup curves_;                       // nothing but curves, between points of the given surface
   std::vector<double> moved_;                         // by vertex: the distance of the farthest one that went into it
   std::map<std::int32_t, std::size_t> triangles_of_;  // by tag
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
+
+// The number of collapses.
+std::size_t FeatureJoiner::collapse_short() {
+  find_short_curves();
+  for (const EdgeH e : mesh_.edges()) offer(e);
+  std::size_t count = 0;
+  while (!queue_.empty()) {
+    const auto [length, number] = queue_.top();
+    queue_.pop();
+    const EdgeH e(number);
+    // Its ends may have changed since, or itself.
+    if (mesh_.status(e).deleted() || length_of(e) != length || !is_short(e)) continue;
+    if (collapse(e)) ++count;
+  }
+  return count;
+}
+
+// Features go by the vertices that lie beside them. Returns the number of these.
+std::size_t FeatureJoiner::join_curves() {
+  flipped_ = flip_caps(mesh_, surface_, shortest_, [&](HalfEdgeH h, double moved) {
+    const VertexH corner = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
+    const double before = std::max(moved_[mesh_.from_vertex_handle(h).idx()], moved_[mesh_.to_vertex_handle(h).idx()]);
+    return !stays_[mesh_.place(corner)] && shortest_.is_at_least(before + moved, mesh_.position(corner)) &&
+           spares_wall(mesh_.face_handle(mesh_.opposite_halfedge_handle(h)), before + moved);
+  });
+  std::size_t count = 0;
+  for (const FlippedCap& cap : flipped_) {
+    if (!cap.was_feature) continue;
+    ++count;
+    moved_[cap.by.idx()] = std::max(moved_[cap.by.idx()], cap.moved);
+    if (features_at(cap.by) > 2) mesh_.keep(cap.by);
+  }
+  if (count > 0) bend_curves();
+  triangles_of_.clear();
+  for (const FaceH f : mesh_.faces()) ++triangles_of_[surface_.tags[mesh_.source(f)]];
+  return count;
+}
 
 // Marks the edges of feature curves between corners that are no longer than the limit at one of these.
 void FeatureJoiner::find_short_curves() {
@@ -220,14 +257,10 @@ HalfEdgeH FeatureJoiner::continuation(HalfEdgeH h) const {
   return next;
 }
 
-// Whether no wall behind a triangle at the vertex, other than a small one, loses much if the vertex moves that far.
-bool FeatureJoiner::spares_walls(VertexH v, double move) {
-  const double small = small_triangle * shortest_.at(mesh_.position(v));
-  for (const FaceH f : mesh_.vf_range(v)) {
-    const bool is_small = norm(mesh_.area_normal(f)) <= 2 * small * small;
-    if (!is_small && thickness_.behind(mesh_.source(f)) < least_wall * move) return false;
-  }
-  return true;
+// Whether no wall behind the triangle, unless that is a small one, loses much if a corner or an edge moves that far.
+bool FeatureJoiner::spares_wall(FaceH f, double move) {
+  const double small = small_triangle * shortest_.at(mesh_.position(mesh_.corners(f)[0]));
+  return norm(mesh_.area_normal(f)) <= 2 * small * small || thickness_.behind(mesh_.source(f)) >= least_wall * move;
 }
 
 // Whether the start of a half-edge can go to its end.
@@ -235,8 +268,9 @@ bool FeatureJoiner::can_go(HalfEdgeH h) {
   const VertexH from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
   const double length = length_of(mesh_.edge_handle(h));
   const double move = moved_[from.idx()] + length;
-  if (stays_[from.idx()] || !shortest_.is_at_least(move, mesh_.position(from)) || !spares_walls(from, move))
-    return false;
+  if (stays_[from.idx()] || !shortest_.is_at_least(move, mesh_.position(from))) return false;
+  for (const FaceH f : mesh_.vf_range(from))
+    if (!spares_wall(f, move)) return false;
   const Vec3 end = mesh_.position(to);
   for (const HalfEdgeH out : mesh_.voh_range(from)) {
     const FaceH f = mesh_.face_handle(out);
@@ -278,15 +312,22 @@ bool FeatureJoiner::collapse(EdgeH e) {
   return true;
 }
 
-// By point of the given surface, the point of the new one that it is now.
-std::vector<Vertex> FeatureJoiner::new_numbers() const {
-  const std::vector<Vertex> by_place = mesh_.point_numbers();
+// By point of the given surface, the one that it is now.
+std::vector<Vertex> FeatureJoiner::points_now() const {
   std::vector<Vertex> result;
   for (std::size_t point = 0; point < surface_.points.size(); ++point) {
     auto v = static_cast<Vertex>(point);
     while (into_[v] != v) v = into_[v];
-    result.push_back(by_place[mesh_.place(VertexH(v))]);
+    result.push_back(mesh_.place(VertexH(v)));
   }
+  return result;
+}
+
+// By point of the given surface, the point of the new one that it is now.
+std::vector<Vertex> FeatureJoiner::new_numbers() const {
+  const std::vector<Vertex> by_place = mesh_.point_numbers();
+  std::vector<Vertex> result = points_now();
+  for (Vertex& v : result) v = by_place[v];
   return result;
 }
 
@@ -301,15 +342,39 @@ std::vector<Vertex> FeatureJoiner::gone_into(const solid::Surface& made,
   for (std::size_t point = 0; point < number.size(); ++point)
     if (is_meant[number[point]] && into_[point] != static_cast<Vertex>(point))
       result.push_back(static_cast<Vertex>(point));
+  for (const FlippedCap& cap : flipped_)
+    if (is_meant[number[mesh_.place(cap.by)]]) result.push_back(mesh_.place(cap.by));
   return result;
+}
+
+// Lets curves go by the vertices that joined them. An edge that two would have stays with the first.
+void FeatureJoiner::bend_curves() {
+  formats::renumber_curves(curves_, points_now());
+  std::map<VertexKey<2>, std::int32_t> tag_of;
+  for (std::size_t i = 0; i < curves_.curves.size(); ++i)
+    tag_of.emplace(key_of(curves_.curves[i]), curves_.curve_tags[i]);
+  for (const FlippedCap& cap : flipped_) {
+    const Vertex start = mesh_.place(cap.start), end = mesh_.place(cap.end), by = mesh_.place(cap.by);
+    const auto found = tag_of.find(edge_key(start, end));
+    if (found == tag_of.end()) continue;
+    const std::int32_t tag = found->second;
+    tag_of.erase(found);
+    tag_of.emplace(edge_key(start, by), tag);
+    tag_of.emplace(edge_key(by, end), tag);
+  }
+  curves_.curves.clear();
+  curves_.curve_tags.clear();
+  for (const auto& [edge, tag] : tag_of) {
+    curves_.curves.push_back(edge);
+    curves_.curve_tags.push_back(tag);
+  }
 }
 
 // The surface without the triangles and curves that became points.
 solid::Surface FeatureJoiner::take() const {
   solid::Surface made = mesh_.to_surface(surface_);
-  made.names = surface_.names;
-  made.curves = surface_.curves;
-  made.curve_tags = surface_.curve_tags;
+  made.curves = curves_.curves;
+  made.curve_tags = curves_.curve_tags;
   formats::renumber_curves(made, new_numbers());
   KeySet<2> seen;
   formats::keep_curves_if(made, [&](const formats::CurveEdge& edge) { return seen.insert(key_of(edge)).second; });

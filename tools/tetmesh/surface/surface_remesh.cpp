@@ -18,6 +18,7 @@
 #include "tools/tetmesh/sizing/sizing.hpp"
 #include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/curve_rows.hpp"
+#include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/remesh_steps.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_front.hpp"
@@ -36,8 +37,12 @@ constexpr double snap = 0.02;
 // Distances are measured at points this far apart, in sizes.
 constexpr double sample_spacing = 0.34;
 // The share of the deviation that removing vertices may use. It measures only vertices, and some points of edges and
-// faces.
+// faces. The chords of feature curves take no more, or vertices between their ends could not go.
 constexpr double removal_share = 0.85;
+// Edges that replace others are at most this many sizes long. Diagonals of rows that stretch are 2 sizes long.
+constexpr double longest_edge = 2.5;
+// Features go by points that are nearer to them than this share of the deviation.
+constexpr double flattest_cap = 0.1;
 // A surface with this many triangles for each new one is thinned out first, within this share of the deviation; new
 // edges are at most this many sizes long.
 constexpr double dense = 8, thinning_share = 0.2, thin_edge = 0.7;
@@ -92,6 +97,7 @@ class SurfaceRemesher::Work {
   void place_front(const RowGuide& guide);
   bool rows_go_across() const;
   void remove_vertices_of_input();
+  void join_points_beside_features(FeatureMesh& mesh) const;
   // Where the surface that was made is not as promised.
   struct Faults {
     std::vector<Vec3> places;
@@ -127,7 +133,8 @@ class SurfaceRemesher::Work {
   FeatureMesh prepared_;           // with all points inserted, and with the vertices of the input
   std::optional<Carrier> carrier_;
   std::optional<DistanceIndex> input_;
-  CloseWatch watch_;  // by what earlier attempts showed
+  CloseWatch watch_;          // by what earlier attempts showed
+  std::vector<Vec3> faults_;  // of earlier attempts, all kinds
 };
 
 // Scans have a hundred triangles and more for each that is needed. The field, the front and the removal of vertices
@@ -155,6 +162,7 @@ bool SurfaceRemesher::Work::judge() {
   // A point may come again; that only takes time.
   append(watch_.left_behind, too_far.left_behind);
   append(watch_.strayed, too_far.strayed);
+  for (const std::vector<Vec3>* some : {&places, &too_far.left_behind, &too_far.strayed}) append(faults_, *some);
   if (result.attempts < careful_attempts) {
     keep_nearest(places, fault_reach / result.attempts * size_);
   } else {
@@ -195,9 +203,10 @@ bool SurfaceRemesher::Work::place_points() {
   const sizing::SizeField longest = field_edge * size_, flat = flatness * size_;
   const bool counts_rows = rows_go_across();
   if (counts_rows)
-    sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, row_edge * size_, flat), size_, deviation_);
+    sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, row_edge * size_, flat), size_,
+                          removal_share * deviation_);
   else
-    sample_feature_curves(prepared_, size_, deviation_);
+    sample_feature_curves(prepared_, size_, removal_share * deviation_);
   refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
   std::optional<Step> step(std::in_place, nullptr, 0.2, 0.6);
@@ -244,12 +253,23 @@ std::size_t SurfaceRemesher::Work::count_places(std::span<const Vertex> vertices
 void SurfaceRemesher::Work::remove_vertices_of_input() {
   const Step step(nullptr, 0.8, 1);
   FeatureMesh mesh = prepared_;
-  remove_vertices(mesh, *input_, removal_share * deviation_, watch_);
+  remove_vertices(mesh, *input_, {removal_share * deviation_, longest_edge * size_}, watch_);
+  join_points_beside_features(mesh);
   result.surface = mesh.to_surface(surface_);
   result.on_feature = mesh.points_on_features();
   // A front point that comes to lie on a feature's point is one with it.
   const std::size_t placed = result.feature_points + result.front_points;
   result.extra_points = result.surface.points.size() - std::min(placed, result.surface.points.size());
+}
+
+// Not where an earlier surface had a fault, which may have come from that.
+void SurfaceRemesher::Work::join_points_beside_features(FeatureMesh& mesh) const {
+  geometry::SizedPointGrid faults(faults_.empty() ? Vec3{} : faults_.front());
+  for (const Vec3& p : faults_) faults.add(p, size_.greatest());
+  flip_caps(mesh, surface_, flattest_cap * deviation_, [&](HalfEdgeH h, double) {
+    const Vec3 corner = mesh.position(mesh.to_vertex_handle(mesh.next_halfedge_handle(h)));
+    return faults_.empty() || !has_within(faults, corner, fault_reach * size_.at(corner));
+  });
 }
 
 Vec3 SurfaceRemesher::Work::centre_of(std::size_t triangle) const {

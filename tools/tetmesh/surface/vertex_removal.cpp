@@ -128,9 +128,14 @@ class StrayedPlaces {
 
 class VertexRemover {
  public:
-  VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation, Strays& strays,
+  VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const RemovalLimits& limits, Strays& strays,
                 const StrayedPlaces& strayed)
-      : mesh_(mesh), original_(original), deviation_(&deviation), strays_(strays), strayed_(strayed) {}
+      : mesh_(mesh),
+        original_(original),
+        deviation_(&limits.deviation),
+        longest_edge_(limits.longest_edge),
+        strays_(strays),
+        strayed_(strayed) {}
   // A remover that changes nothing outside a region.
   VertexRemover(const VertexRemover& whole, const MeshRegions& regions, std::size_t region) : VertexRemover(whole) {
     regions_ = &regions;
@@ -190,6 +195,7 @@ class VertexRemover {
   const DistanceIndex& original_;
   std::int32_t nearest_ = no_index;  // the triangle of the original that was measured last
   const sizing::SizeField* deviation_;
+  const sizing::SizeField& longest_edge_;
   bool only_thin_ = false;
   Strays& strays_;
   const StrayedPlaces& strayed_;
@@ -203,6 +209,7 @@ class VertexRemover {
     Vec3 normal;        // of twice the area
     double twice_area;
   };
+  bool grows_too_long(const FaceAround& face, HalfEdgeH collapse) const;
   std::vector<FaceAround> faces_;
   std::vector<Choice> choices_;
   Change change_;
@@ -292,7 +299,23 @@ void VertexRemover::gather_faces(VertexH v) {
   }
 }
 
-// The least shape of the faces that move, which were gathered before; negative if one of them turns too far.
+// Whether an edge of the face gets too long, and longer than it was, when its corner moves. Where the surface bends so
+// much that few edges stay near it, long ones along it would be all that fits.
+bool VertexRemover::grows_too_long(const FaceAround& face, HalfEdgeH collapse) const {
+  const Vec3 target = mesh_.position(mesh_.to_vertex_handle(collapse));
+  const HalfEdgeH twin = mesh_.opposite_halfedge_handle(collapse);
+  return std::ranges::any_of(std::array<std::size_t, 2>{1, 2}, [&](std::size_t step) {
+    const std::size_t end = (face.moved + step) % 3;
+    const double length = norm(face.corners[end] - target);
+    if (length <= norm(face.corners[end] - face.corners[face.moved]) || longest_edge_.is_at_least(length, target))
+      return false;
+    // From these, an edge leads to the target already.
+    return face.handles[end] != mesh_.to_vertex_handle(mesh_.next_halfedge_handle(collapse)) &&
+           face.handles[end] != mesh_.to_vertex_handle(mesh_.next_halfedge_handle(twin));
+  });
+}
+
+// The least shape of the faces that move, which were gathered before; negative if one of them turns or grows too far.
 double VertexRemover::shape_after(HalfEdgeH collapse) {
   const VertexH to = mesh_.to_vertex_handle(collapse);
   const Vec3 target = mesh_.position(to);
@@ -303,6 +326,7 @@ double VertexRemover::shape_after(HalfEdgeH collapse) {
     after[face.moved] = target;
     const Vec3 m = area_normal(after);
     if (dot(face.normal, m) < least_cosine * face.twice_area * norm(m)) return -1;
+    if (grows_too_long(face, collapse)) return -1;
     least = std::min(least, shape_of(after, m));
   }
   return least;
@@ -406,15 +430,16 @@ bool VertexRemover::allow_flip(EdgeH e, const EdgeDiamond& diamond) {
 
 }  // namespace
 
-std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const sizing::SizeField& deviation,
+std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const RemovalLimits& limits,
                             const CloseWatch& watch) {
+  const sizing::SizeField& deviation = limits.deviation;
   const auto on_features_first = [&](std::vector<VertexH>& vertices) {
     std::ranges::stable_partition(vertices, [&](VertexH v) { return mesh.is_on_feature(v); });
   };
   Strays strays = samples_of_edges(mesh, deviation);
   watch_points(mesh, watch.left_behind, strays);
   const StrayedPlaces strayed(watch.strayed, deviation);
-  VertexRemover everywhere(mesh, original, deviation, strays, strayed);
+  VertexRemover everywhere(mesh, original, limits, strays, strayed);
   std::vector<VertexH> at_joints;
   for (const VertexH v : mesh.vertices())
     if (!mesh.is_kept(v) && mesh.has_copies(v) && mesh.place(v) == v.idx()) at_joints.push_back(v);
