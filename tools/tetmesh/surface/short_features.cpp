@@ -103,7 +103,7 @@ class FeatureJoiner {
     into_.resize(mesh_.n_vertices());
     for (std::size_t v = 0; v < into_.size(); ++v) into_[v] = static_cast<Vertex>(v);
     moved_.resize(mesh_.n_vertices());
-    for (const FaceH f : mesh_.faces()) ++triangles_of_[surface.tags[mesh_.source(f)]];
+    count_triangles();
   }
 
   // The number of vertices that went, or joined a feature.
@@ -152,6 +152,10 @@ class FeatureJoiner {
   bool can_go(HalfEdgeH h);
   bool spares_wall(FaceH f, double move);
 
+  void count_triangles() {
+    triangles_of_.clear();
+    for (const FaceH f : mesh_.faces()) ++triangles_of_[surface_.tags[mesh_.source(f)]];
+  }
   std::size_t features_at(VertexH v) const {
     std::size_t count = 0;
     for (const EdgeH e : mesh_.ve_range(v)) count += mesh_.is_feature(e);
@@ -211,8 +215,7 @@ std::size_t FeatureJoiner::join_curves() {
     if (features_at(cap.by) > 2) mesh_.keep(cap.by);
   }
   if (count > 0) bend_curves();
-  triangles_of_.clear();
-  for (const FaceH f : mesh_.faces()) ++triangles_of_[surface_.tags[mesh_.source(f)]];
+  count_triangles();
   return count;
 }
 
