@@ -54,6 +54,14 @@ std::map<NodeEdge, int> border_of(const std::vector<Triangle>& triangles) {
   return count;
 }
 
+TEST(FillGaps, AddsNothingWhereTheBorderGoesTheWrongWay) {
+  const std::vector<Vec3> nodes{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+  const std::vector<Triangle> triangles{{0, 2, 1}, {0, 3, 2}};
+  const FilledGaps filled = fill_gaps(plane(), around(4), triangles, nodes, 0.1);
+  EXPECT_TRUE(filled.are_closed);
+  EXPECT_THAT(filled.triangles, IsEmpty());
+}
+
 TEST(FillGaps, AddsNothingWhereThereAreNone) {
   const std::vector<Vec3> nodes{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
   const std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}};

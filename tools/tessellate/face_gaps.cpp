@@ -34,7 +34,8 @@ constexpr double least_cosine_of_tip = 0.8;
 using Loop = std::vector<std::int32_t>;
 
 // The edges that triangles in gaps have to have, in their direction: those of the border without a triangle, and those
-// of triangles without another one, from the other side.
+// of triangles without another one, from the other side. A border may go around its face the wrong way, as that
+// of OpenCASCADE's own torus does: then the triangles have its edges in the other direction, and want none.
 class WantedEdges {
  public:
   WantedEdges(std::span<const NodeEdge> border, std::span<const Triangle> triangles) {
@@ -45,9 +46,10 @@ class WantedEdges {
   // The loops that they form. Edges that are left over form a loop, too, which no triangles near the face close.
   std::vector<Loop> loops() const {
     std::vector<NodeEdge> wanted;
-    for (const auto& [edge, count] : count_)
-      wanted.insert(wanted.end(), static_cast<std::size_t>(std::abs(count)),
-                    count > 0 ? NodeEdge(edge[0], edge[1]) : NodeEdge(edge[1], edge[0]));
+    for (const auto& [edge, count] : count_) {
+      if (count == 1) wanted.emplace_back(edge[0], edge[1]);
+      if (count == -1) wanted.emplace_back(edge[1], edge[0]);
+    }
     std::ranges::sort(wanted);
     std::multimap<std::int32_t, std::int32_t> edges(wanted.begin(), wanted.end());
     std::vector<Loop> loops;

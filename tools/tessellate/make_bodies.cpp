@@ -94,6 +94,22 @@ void add_open_shells(const TopoDS_Shape& shape, CadModel& model) {
   }
 }
 
+// Sewing leaves a face alone that has no edge in common with others, though it may be closed, as a sphere's or a
+// torus's single face is: such a face gets a shell of its own.
+TopoDS_Shape with_shells(const TopoDS_Shape& sewn) {
+  BRep_Builder builder;
+  TopoDS_Compound result;
+  builder.MakeCompound(result);
+  for (TopExp_Explorer shell(sewn, TopAbs_SHELL); shell.More(); shell.Next()) builder.Add(result, shell.Current());
+  for (TopExp_Explorer face(sewn, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next()) {
+    TopoDS_Shell shell;
+    builder.MakeShell(shell);
+    builder.Add(shell, face.Current());
+    builder.Add(result, shell);
+  }
+  return result;
+}
+
 struct SewnFaces {
   TopoDS_Shape shape;
   std::string gap;  // how many edges have a single face, and where the first is; empty if none
@@ -114,7 +130,7 @@ SewnFaces sewn(const TopoDS_Shape& whole, ShapeNames& names) {
     gap = fmt::format("; {} of a single face, the first from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})",
                       counted(sewing.NbFreeEdges(), "edge"), from.X(), from.Y(), from.Z(), to.X(), to.Y(), to.Z());
   }
-  return {sewing.SewedShape(), std::move(gap)};
+  return {with_shells(sewing.SewedShape()), std::move(gap)};
 }
 
 }  // namespace
@@ -149,8 +165,8 @@ void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel&
   }
   if (model.bodies.empty())
     throw DataError::at(source, "expected bodies, found no solid, and {} of {} that {} not closed{}{}",
-                        open > 0 ? counted(open, "shell") : "sheets", counted(faces, "face"), open == 1 ? "is" : "are",
-                        gap, way_out);
+                        open > 0 && open < faces ? counted(open, "shell") : "sheets", counted(faces, "face"),
+                        open == 1 && faces > 1 ? "is" : "are", gap, way_out);
   model.warnings.push_back(fmt::format("there are no solids: {}, {}", act, counted_bodies(model.bodies.size())));
   add_open_shells(shells, model);
 }
