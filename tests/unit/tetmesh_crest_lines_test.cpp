@@ -119,7 +119,7 @@ TEST(BendStretch, IsThatOfTheTangents) {
   FeatureMesh mesh = mesh_of(extrusion(filleted(0.8, 6), 8));
   mesh.add_crests(crest_lines(mesh, 1));
   const FieldSurface surface(mesh, 1);
-  const BendStretch stretch = bend_stretch(surface);
+  const BendStretch stretch = bend_stretch(surface, cross_field(surface));
   int stretched = 0;
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface.triangles.size()); ++f) {
     const Vec3& n = surface.normals[f];

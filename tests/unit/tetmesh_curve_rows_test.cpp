@@ -27,7 +27,7 @@ FeatureMesh feature_mesh_of(const Facets& facets) {
 }
 
 std::vector<MeasuredCurve> curves_of(const FeatureMesh& mesh, double size) {
-  return curves_by_rows(mesh, size, 1.3 * size, 1e-5 * size);
+  return curves_by_rows(mesh, size, 0.05 * size, 1.3 * size, 1e-5 * size);
 }
 
 // A box whose sides lean inwards: its top is `part` as long along x as its bottom.

@@ -28,7 +28,7 @@ using testing::sphere;
 
 constexpr double timeout = 60;
 
-Surface shells_of(const Facets& facets) {
+Surface oriented_shells_of(const Facets& facets) {
   return find_shells(soup_of(facets), ShellRule::oriented);
 }
 
@@ -53,7 +53,7 @@ double volume_of_region(const TetMesh& mesh, std::int32_t region) {
 }
 
 TEST(RunTetgen, KeepsSurfaceAndPointsInTheirOrder) {
-  const Surface surface = shells_of(cube(0, 4, 4));
+  const Surface surface = oriented_shells_of(cube(0, 4, 4));
   const std::vector<Vec3> points{{2.1, 2, 2}, {1, 1, 1.2}, {3, 1.5, 1}, {1, 2.9, 3}};
   const TetGenResult result = tets_of(surface, points);
   EXPECT_EQ(result.failure, "");
@@ -69,7 +69,7 @@ TEST(RunTetgen, KeepsSurfaceAndPointsInTheirOrder) {
 }
 
 TEST(RunTetgen, AShuffledOrderChangesTetsOnly) {
-  const Surface surface = shells_of(sphere({0, 0, 0}, 4, 12));
+  const Surface surface = oriented_shells_of(sphere({0, 0, 0}, 4, 12));
   const std::vector<Vec3> points{{2.1, 2, 2}, {1, 1, 1.2}, {-1, 0.5, 1}, {1, -2, -1}};
   std::vector<std::vector<Tet>> tets;
   for (const std::uint64_t order : {0, 1, 2}) {
@@ -86,7 +86,7 @@ TEST(RunTetgen, TellsApartWhatNearlyTouchesWhereItIsStrict) {
   Facets beside = cube(0, 1);
   for (auto& facet : beside)
     for (Vec3& p : facet) p.x += 1 + 1e-9;
-  const Surface surface = shells_of(joined(cube(0, 1), beside));
+  const Surface surface = oriented_shells_of(joined(cube(0, 1), beside));
   const auto error = [&](bool strict) {
     return error_of_tets(
         surface,
@@ -100,7 +100,7 @@ TEST(RunTetgen, TellsApartWhatNearlyTouchesWhereItIsStrict) {
 
 TEST(RunTetgen, EmptiesHolesAndSeparatesRegions) {
   const Facets facets = joined(joined(cube(0, 8), inverted(cube(1, 3))), cube(5, 2));
-  const Surface surface = shells_of(facets);
+  const Surface surface = oriented_shells_of(facets);
   const BuiltMesh built = build_mesh(surface, {}, tets_of(surface));
   EXPECT_NEAR(volume_of_region(built.mesh, 1), 512 - 27 - 8, 1e-9);
   EXPECT_NEAR(volume_of_region(built.mesh, 2), 8, 1e-9);
@@ -131,7 +131,7 @@ TEST(RunTetgen, SurvivesSurfacesThatMakeTetgenAbort) {
 }
 
 TEST(RunTetgen, GivesUpInTime) {
-  const Surface surface = shells_of(sphere({0, 0, 0}, 1, 100));
+  const Surface surface = oriented_shells_of(sphere({0, 0, 0}, 1, 100));
   EXPECT_THAT(tets_of(surface, {}, 0.001).failure, HasSubstr("longer than --tetgen-timeout"));
 }
 
@@ -140,7 +140,7 @@ TEST(RunTetgen, TellsOfMissingMemoryAtOnce) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer's shadow memory is over any limit";
 #else
-  const Surface surface = shells_of(sphere({0, 0, 0}, 1, 250));
+  const Surface surface = oriented_shells_of(sphere({0, 0, 0}, 1, 250));
   rlimit limit;
   ASSERT_EQ(getrlimit(RLIMIT_AS, &limit), 0);
   std::size_t pages = 0;
@@ -159,7 +159,7 @@ TEST(RunTetgen, TellsOfMissingMemoryAtOnce) {
 }
 
 TEST(BuildMesh, NoticesWhatTetgenMightDoWrong) {
-  const Surface surface = shells_of(cube(0, 4, 4));
+  const Surface surface = oriented_shells_of(cube(0, 4, 4));
   const std::vector<Vec3> points{{2.1, 2, 2}, {1, 1, 1.2}};
   const TetGenResult good = tets_of(surface, points);
   EXPECT_EQ(error_of_tets(surface, good, points), "no error");
@@ -192,7 +192,7 @@ TEST(BuildMesh, NoticesWhatTetgenMightDoWrong) {
 }
 
 TEST(BuildMesh, CountsPointsThatCameAndWent) {
-  const Surface surface = shells_of(cube(0, 4, 4));
+  const Surface surface = oriented_shells_of(cube(0, 4, 4));
   const std::vector<Vec3> points{{2.1, 2, 2}, {9, 9, 9}, {1, 1, 1.2}};
   EXPECT_EQ(build_mesh(surface, points, tets_of(surface, points)).dropped_points, 1u);
   const std::vector<Vec3> one{points[0]};

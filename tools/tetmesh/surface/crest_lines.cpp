@@ -155,8 +155,7 @@ std::vector<OpenMesh::EdgeHandle> crest_lines(const FeatureMesh& mesh, const siz
   return CrestFinder(mesh, size).find();
 }
 
-BendStretch bend_stretch(const FieldSurface& surface) {
-  BendStretch result{std::vector<double>(surface.triangles.size(), 1.0), std::vector<Vec3>(surface.triangles.size())};
+void add_small_fillets(const FieldSurface& surface, BendStretch& stretch) {
   std::vector<std::int32_t> queue;
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(surface.twins.size()); ++h) {
     if (!surface.crest[h]) continue;
@@ -167,9 +166,9 @@ BendStretch bend_stretch(const FieldSurface& surface) {
         unit(surface.normals[geometry::triangle_of(h)] + surface.normals[geometry::triangle_of(surface.twins[h])]);
     const double turn = std::clamp(angle_between(crest, end), least_bend, 0.5 * most_turn);
     for (const std::int32_t f : across.triangles) {
-      if (result.factor[f] > 1 || angle_between(surface.normals[f], end) < least_bend) continue;
-      result.factor[f] = std::tan(turn) / turn;
-      result.along[f] = unit(surface.edge_vector(h));
+      if (stretch.factor[f] > 1 || angle_between(surface.normals[f], end) < least_bend) continue;
+      stretch.factor[f] = std::tan(turn) / turn;
+      stretch.along[f] = unit(surface.edge_vector(h));
       queue.push_back(f);
     }
   }
@@ -178,14 +177,13 @@ BendStretch bend_stretch(const FieldSurface& surface) {
     const std::int32_t f = queue[next];
     for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
       const std::int32_t g = geometry::triangle_of(surface.twins[h]);
-      if (surface.feature[h] || result.factor[g] > 1) continue;
+      if (surface.feature[h] || stretch.factor[g] > 1) continue;
       if (angle_between(surface.normals[f], surface.normals[g]) > strip_bend) continue;
-      result.factor[g] = result.factor[f];
-      result.along[g] = result.along[f];
+      stretch.factor[g] = stretch.factor[f];
+      stretch.along[g] = stretch.along[f];
       queue.push_back(g);
     }
   }
-  return result;
 }
 
 }  // namespace hexpipe::tetmesh::surface

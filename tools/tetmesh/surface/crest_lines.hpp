@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/tetmesh/sizing/size_field.hpp"
+#include "tools/tetmesh/surface/bend_stretch.hpp"
 #include "tools/tetmesh/surface/feature_mesh.hpp"
 #include "tools/tetmesh/surface/field_surface.hpp"
 
@@ -13,19 +14,8 @@ namespace hexpipe::tetmesh::surface {
 // The edges of the mesh that lie on such lines; only lines that are long against the size count.
 std::vector<OpenMesh::EdgeHandle> crest_lines(const FeatureMesh& mesh, const sizing::SizeField& size);
 
-// How much longer the way across a fillet would be if its edge were not rounded: along the tangents of both sides.
-struct BendStretch {
-  std::vector<double> factor;  // of each triangle; 1 off fillets
-  std::vector<Vec3> along;     // the direction whose lengths do not change
-
-  // The factor for a direction of length 1 in the triangle's plane.
-  double in_direction(std::int32_t triangle, const Vec3& direction) const {
-    const double cosine = dot(direction, along[triangle]);
-    return 1 + (factor[triangle] - 1) * (1 - cosine * cosine);
-  }
-};
-
-// Finds the fillets beside the half-edges that are crests.
-BendStretch bend_stretch(const FieldSurface& surface);
+// Adds the small fillets beside the half-edges that are crests: how much longer the way across them would be if their
+// edge were not rounded, along the tangents of both sides.
+void add_small_fillets(const FieldSurface& surface, BendStretch& stretch);
 
 }  // namespace hexpipe::tetmesh::surface

@@ -16,11 +16,12 @@ constexpr double most_step_ratio = 1.5;
 
 class CurveMeasurer {
  public:
-  CurveMeasurer(const FeatureMesh& refined, std::size_t own_vertices, const sizing::SizeField& size)
+  CurveMeasurer(const FeatureMesh& refined, std::size_t own_vertices, const sizing::SizeField& size,
+                const sizing::SizeField& chord_height)
       : mesh_(refined),
         own_vertices_(own_vertices),
         size_(size),
-        surface_(refined, size),
+        surface_(refined, size, chord_height),
         // Whether opposite sides agree makes no difference to the number of rows: 93.0 or 93.1 % in hexes on five
         // models.
         field_(cross_field(surface_)),
@@ -112,10 +113,11 @@ class CurveMeasurer {
 }  // namespace
 
 std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const sizing::SizeField& size,
-                                          const sizing::SizeField& longest, const sizing::SizeField& flatness) {
+                                          const sizing::SizeField& chord_height, const sizing::SizeField& longest,
+                                          const sizing::SizeField& flatness) {
   FeatureMesh refined = mesh;
   refine_surface(refined, longest, flatness);
-  const CurveMeasurer measurer(refined, mesh.n_vertices(), size);
+  const CurveMeasurer measurer(refined, mesh.n_vertices(), size, chord_height);
   std::vector<MeasuredCurve> result;
   const std::vector<FeatureCurve> curves = feature_curves(refined);
   for (const FeatureCurve& curve : curves) result.push_back(measurer.measure(curve));

@@ -6,7 +6,8 @@
 
 namespace hexpipe::tetmesh::surface {
 
-FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& size) {
+FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& size,
+                           const std::optional<sizing::SizeField>& chord_height) {
   std::map<VertexKey<2>, std::int32_t> joints;  // their numbers by the places of their ends
   const auto joint_of = [&](OpenMesh::HalfedgeHandle h) {
     const VertexKey<2> ends = edge_key(mesh.place(mesh.from_vertex_handle(h)), mesh.place(mesh.to_vertex_handle(h)));
@@ -33,6 +34,7 @@ FieldSurface::FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& siz
     normals.push_back(normal * (1 / length));
     areas.push_back(length / 2);
     sizes.push_back(size.at(centres.back()));
+    if (chord_height) chord_heights.push_back(chord_height->at(centres.back()));
     is_interface.push_back(mesh.is_interface(f));
   }
   twins.resize(3 * triangles.size());

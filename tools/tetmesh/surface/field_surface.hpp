@@ -1,6 +1,7 @@
 #pragma once
 // A refined surface as plain arrays, with the sizes asked for, for the cross field and for walks along it.
 
+#include <optional>
 #include <vector>
 
 #include "tools/tetmesh/geometry/half_edges.hpp"
@@ -18,7 +19,8 @@ struct AreaSample {
 
 struct FieldSurface {
   // Faces and vertices have the same numbers as in the mesh, which must have no deleted elements.
-  FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& size);
+  FieldSurface(const FeatureMesh& mesh, const sizing::SizeField& size,
+               const std::optional<sizing::SizeField>& chord_height = {});
 
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
@@ -29,7 +31,9 @@ struct FieldSurface {
   std::vector<Vec3> centres;
   std::vector<Vec3> normals;  // of length 1
   std::vector<double> areas;
-  std::vector<double> sizes;          // in the middle of each triangle
+  std::vector<double> sizes;  // in the middle of each triangle
+  // By triangle: how far a straight line from one row of points to the next may leave the surface. Empty: by anything.
+  std::vector<double> chord_heights;
   std::vector<bool> is_interface;     // by triangle: a region is on both of its sides
   std::vector<Vec3> alongs, inwards;  // by half-edge, see along() and inward()
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
 namespace hexpipe::tetmesh::surface {
@@ -59,7 +58,7 @@ SurfaceLink SurfaceLink::reversed(std::int32_t from) const {
 }
 
 SurfaceLinks::SurfaceLinks(const FieldSurface& on, const CrossField& along)
-    : surface(on), field(along), stretch(bend_stretch(on)), of(on.twins.size()) {
+    : surface(on), field(along), stretch(bend_stretch(on, along)), of(on.twins.size()) {
   parallel_for(static_cast<std::int64_t>(of.size()), 1024, [&](std::int64_t i) {
     const auto h = static_cast<geometry::HalfEdge>(i), twin = on.twins[h];
     if (on.feature[h] || twin < h) return;

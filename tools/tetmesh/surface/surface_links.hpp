@@ -9,13 +9,13 @@
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
 #include "tools/tetmesh/fields/periodic_link.hpp"
-#include "tools/tetmesh/surface/crest_lines.hpp"
+#include "tools/tetmesh/surface/bend_stretch.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 
 namespace hexpipe::tetmesh::surface {
 
-// Between the centres of triangles, along their two directions. Distances are measured over the unrounded edges of
-// fillets, and corrected.
+// Between the centres of triangles, along their two directions. Distances across bends count as longer, and all are
+// corrected.
 struct SurfaceLink : fields::PeriodicLink<2> {
   std::array<double, 2> way{};  // the distance before the correction
 

@@ -39,6 +39,9 @@ constexpr double sample_spacing = 0.34;
 // The share of the deviation that removing vertices may use. It measures only vertices, and some points of edges and
 // faces. The chords of feature curves take no more, or vertices between their ends could not go.
 constexpr double removal_share = 0.85;
+// Rows of points across a bend of the surface are so close that edges between them leave it by this share of the
+// deviation. With more of it, points of the input stay beside them.
+constexpr double row_share = 0.5;
 // Edges that replace others are at most this many sizes long. Diagonals of rows that stretch are 2 sizes long.
 constexpr double longest_edge = 2.5;
 // Features go by points that are nearer to them than this share of the deviation.
@@ -201,21 +204,23 @@ bool SurfaceRemesher::Work::rows_go_across() const {
 bool SurfaceRemesher::Work::place_points() {
   if (size_.is_uniform()) prepared_.add_crests(crest_lines(prepared_, size_));
   const sizing::SizeField longest = field_edge * size_, flat = flatness * size_;
-  const bool counts_rows = rows_go_across();
-  if (counts_rows)
-    sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, row_edge * size_, flat), size_,
+  std::optional<sizing::SizeField> chord_height;
+  if (rows_go_across()) {
+    chord_height = row_share * deviation_;
+    sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, *chord_height, row_edge * size_, flat), size_,
                           removal_share * deviation_);
-  else
+  } else {
     sample_feature_curves(prepared_, size_, removal_share * deviation_);
+  }
   refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
   std::optional<Step> step(std::in_place, nullptr, 0.2, 0.6);
-  FieldSurface field_surface(prepared_, size_);
+  FieldSurface field_surface(prepared_, size_, chord_height);
   FieldAndSides field = cross_field_across(field_surface);
   if (!std::ranges::all_of(field.field.directions, is_place)) return false;
   step.reset();
   step.emplace(nullptr, 0.6, 0.8);
-  carrier_.emplace(prepared_, kept, std::move(field_surface), std::move(field), counts_rows ? row_stretch_ : 0);
+  carrier_.emplace(prepared_, kept, std::move(field_surface), std::move(field), chord_height ? row_stretch_ : 0);
   place_front({});
   return true;
 }
