@@ -54,12 +54,17 @@ std::map<NodeEdge, int> border_of(const std::vector<Triangle>& triangles) {
   return count;
 }
 
-TEST(FillGaps, AddsNothingWhereTheBorderGoesTheWrongWay) {
-  const std::vector<Vec3> nodes{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
-  const std::vector<Triangle> triangles{{0, 2, 1}, {0, 3, 2}};
-  const FilledGaps filled = fill_gaps(plane(), around(4), triangles, nodes, 0.1);
-  EXPECT_TRUE(filled.are_closed);
-  EXPECT_THAT(filled.triangles, IsEmpty());
+TEST(FillGaps, TakesABorderThatGoesTheWrongWay) {
+  const std::vector<Vec3> nodes{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {2, 2, 0}};
+  std::vector<Triangle> triangles{{0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}};
+  const FilledGaps none = fill_gaps(plane(), around(4), triangles, nodes, 0.1);
+  EXPECT_TRUE(none.are_closed);
+  EXPECT_THAT(none.triangles, IsEmpty());
+  triangles.pop_back();
+  const FilledGaps one = fill_gaps(plane(), around(4), triangles, nodes, 0.1);
+  EXPECT_TRUE(one.are_closed);
+  ASSERT_EQ(one.triangles.size(), 1u);
+  EXPECT_NEAR(area_of(one.triangles, nodes).z, -4, 1e-12);
 }
 
 TEST(FillGaps, AddsNothingWhereThereAreNone) {

@@ -11,6 +11,7 @@
 #include <BRep_Builder.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom_SphericalSurface.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <cmath>
 #include <gp_Ax3.hxx>
@@ -24,11 +25,11 @@
 namespace hexpipe::tessellate {
 namespace {
 
-CadModel model_of(std::initializer_list<TopoDS_Shape> faces) {
+CadModel model_of(std::initializer_list<TopoDS_Shape> shapes) {
   BRep_Builder builder;
   TopoDS_Compound whole;
   builder.MakeCompound(whole);
-  for (const TopoDS_Shape& face : faces) builder.Add(whole, face);
+  for (const TopoDS_Shape& shape : shapes) builder.Add(whole, shape);
   CadModel model;
   model.bodies.push_back({whole, "body"});
   return model;
@@ -67,7 +68,7 @@ double volume_of(const TopoDS_Shape& shape) {
   return std::abs(properties.Mass());
 }
 
-// Also inside out and in a mirror. The border of OpenCASCADE's torus goes around it the wrong way.
+// Also turned inside out and in a mirror. The border of OpenCASCADE's torus goes around it the wrong way.
 TEST(Triangulate, ClosesThePrimitivesOfOpenCascade) {
   const double turn = 2 * std::numbers::pi;
   gp_Trsf mirror;
@@ -99,6 +100,21 @@ TEST(MakeBodies, TakesAClosedFaceWithoutAShell) {
   make_bodies(face, "sphere.igs", model);
   ASSERT_EQ(model.bodies.size(), 1U);
   EXPECT_NEAR(volume_of(triangulate(model, {}, "sphere.igs").surface), volume_of(model.bodies.front().solid), 0.1);
+}
+
+// As Gmsh writes them.
+TEST(FindSheets, LeavesOutTheFacesOfBodies) {
+  const TopoDS_Shape body = BRepPrimAPI_MakeCylinder(1, 3).Solid(), loose = sphere(0);
+  BRep_Builder builder;
+  TopoDS_Compound whole;
+  builder.MakeCompound(whole);
+  builder.Add(whole, body);
+  for (TopExp_Explorer face(body, TopAbs_FACE); face.More(); face.Next()) builder.Add(whole, face.Current().Reversed());
+  for (int i = 0; i < 2; ++i) builder.Add(whole, loose);
+  CadModel model;
+  find_sheets(whole, model);
+  ASSERT_EQ(model.sheets.size(), 1U);
+  EXPECT_TRUE(model.sheets.front().IsSame(loose));
 }
 
 }  // namespace

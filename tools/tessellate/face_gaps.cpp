@@ -34,22 +34,21 @@ constexpr double least_cosine_of_tip = 0.8;
 using Loop = std::vector<std::int32_t>;
 
 // The edges that triangles in gaps have to have, in their direction: those of the border without a triangle, and those
-// of triangles without another one, from the other side. A border may go around its face the wrong way, as that
-// of OpenCASCADE's own torus does: then the triangles have its edges in the other direction, and want none.
+// of triangles without another one, from the other side.
 class WantedEdges {
  public:
   WantedEdges(std::span<const NodeEdge> border, std::span<const Triangle> triangles) {
-    for (const auto& [from, to] : border) add(from, to, 1);
     for (const auto& [a, b, c] : triangles) add(a, b, -1), add(b, c, -1), add(c, a, -1);
+    const int sense = goes_the_wrong_way(border) ? -1 : 1;
+    for (const auto& [from, to] : border) add(from, to, sense);
   }
 
   // The loops that they form. Edges that are left over form a loop, too, which no triangles near the face close.
   std::vector<Loop> loops() const {
     std::vector<NodeEdge> wanted;
-    for (const auto& [edge, count] : count_) {
-      if (count == 1) wanted.emplace_back(edge[0], edge[1]);
-      if (count == -1) wanted.emplace_back(edge[1], edge[0]);
-    }
+    for (const auto& [edge, count] : count_)
+      wanted.insert(wanted.end(), static_cast<std::size_t>(std::abs(count)),
+                    count > 0 ? NodeEdge(edge[0], edge[1]) : NodeEdge(edge[1], edge[0]));
     std::ranges::sort(wanted);
     std::multimap<std::int32_t, std::int32_t> edges(wanted.begin(), wanted.end());
     std::vector<Loop> loops;
@@ -71,6 +70,14 @@ class WantedEdges {
   }
 
  private:
+  // As the border of OpenCASCADE's own torus does: most of its edges are those of triangles from the other side.
+  bool goes_the_wrong_way(std::span<const NodeEdge> border) const {
+    int balance = 0;
+    for (const auto& [from, to] : border)
+      if (const auto found = count_.find(edge_key(from, to)); found != count_.end())
+        balance += from < to ? found->second : -found->second;
+    return balance > 0;
+  }
   void add(std::int32_t from, std::int32_t to, int count) {
     if (from != to) count_[edge_key(from, to)] += from < to ? count : -count;
   }

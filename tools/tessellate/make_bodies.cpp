@@ -73,13 +73,34 @@ TopoDS_Solid solid_of(const TopoDS_Shell& shell) {
   return solid;
 }
 
-// Adds a body for each closed shell; returns how many are open.
+bool has_closed_shell(const TopoDS_Shape& shape) {
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next())
+    if (BRep_Tool::IsClosed(shell.Current())) return true;
+  return false;
+}
+
+// Each face that stands alone gets a shell of its own. It may be closed, as the single face of a sphere or a torus is.
+TopoDS_Shape with_shells(const TopoDS_Shape& shape) {
+  BRep_Builder builder;
+  TopoDS_Compound result;
+  builder.MakeCompound(result);
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next()) builder.Add(result, shell.Current());
+  for (TopExp_Explorer face(shape, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next()) {
+    TopoDS_Shell shell;
+    builder.MakeShell(shell);
+    builder.Add(shell, face.Current());
+    builder.Add(result, shell);
+  }
+  return result;
+}
+
+// Adds a body for each closed shell; returns how many of several faces are open.
 int add_closed_shells(const TopoDS_Shape& shape, CadModel& model) {
   int open = 0;
   for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next()) {
     if (BRep_Tool::IsClosed(shell.Current()))
       model.bodies.push_back({solid_of(TopoDS::Shell(shell.Current())), model.names.of(shell.Current())});
-    else
+    else if (shell.Current().NbChildren() > 1)
       ++open;
   }
   return open;
@@ -92,22 +113,6 @@ void add_open_shells(const TopoDS_Shape& shape, CadModel& model) {
     for (TopExp_Explorer face(shell.Current(), TopAbs_FACE); face.More(); face.Next())
       model.sheets.push_back(face.Current());
   }
-}
-
-// Sewing leaves a face alone that has no edge in common with others, though it may be closed, as a sphere's or a
-// torus's single face is: such a face gets a shell of its own.
-TopoDS_Shape with_shells(const TopoDS_Shape& sewn) {
-  BRep_Builder builder;
-  TopoDS_Compound result;
-  builder.MakeCompound(result);
-  for (TopExp_Explorer shell(sewn, TopAbs_SHELL); shell.More(); shell.Next()) builder.Add(result, shell.Current());
-  for (TopExp_Explorer face(sewn, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next()) {
-    TopoDS_Shell shell;
-    builder.MakeShell(shell);
-    builder.Add(shell, face.Current());
-    builder.Add(result, shell);
-  }
-  return result;
 }
 
 struct SewnFaces {
@@ -130,7 +135,7 @@ SewnFaces sewn(const TopoDS_Shape& whole, ShapeNames& names) {
     gap = fmt::format("; {} of a single face, the first from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})",
                       counted(sewing.NbFreeEdges(), "edge"), from.X(), from.Y(), from.Z(), to.X(), to.Y(), to.Z());
   }
-  return {with_shells(sewing.SewedShape()), std::move(gap)};
+  return {sewing.SewedShape(), std::move(gap)};
 }
 
 }  // namespace
@@ -153,30 +158,37 @@ void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel&
     throw DataError::at(source, "expected bodies, found no solid and no face{}",
                         model.warnings.empty() ? "" : "; " + model.warnings.front());
   TopoDS_Shape shells = whole;
-  int open = add_closed_shells(shells, model);
   const char* act = "shells that are closed are taken for bodies";
   std::string gap;
-  if (model.bodies.empty()) {
+  if (!has_closed_shell(whole)) {
     SewnFaces made = sewn(whole, model.names);
     shells = made.shape;
     gap = std::move(made.gap);
-    open = add_closed_shells(shells, model);
     act = "its faces are sewn to bodies";
   }
+  shells = with_shells(shells);
+  const int open = add_closed_shells(shells, model);
   if (model.bodies.empty())
     throw DataError::at(source, "expected bodies, found no solid, and {} of {} that {} not closed{}{}",
-                        open > 0 && open < faces ? counted(open, "shell") : "sheets", counted(faces, "face"),
-                        open == 1 && faces > 1 ? "is" : "are", gap, way_out);
+                        open > 0 ? counted(open, "shell") : "sheets", counted(faces, "face"), open == 1 ? "is" : "are",
+                        gap, way_out);
   model.warnings.push_back(fmt::format("there are no solids: {}, {}", act, counted_bodies(model.bodies.size())));
   add_open_shells(shells, model);
 }
 
+// Gmsh and others write BREP files that have the faces of solids again beside them.
 void find_sheets(const TopoDS_Shape& whole, CadModel& model) {
+  TopTools_IndexedMapOfShape known;
+  for (TopExp_Explorer solid(whole, TopAbs_SOLID); solid.More(); solid.Next())
+    TopExp::MapShapes(solid.Current(), TopAbs_FACE, known);
   for (TopExp_Explorer shell(whole, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
     for (TopExp_Explorer face(shell.Current(), TopAbs_FACE); face.More(); face.Next())
       model.names.set(face.Current(), model.names.of(shell.Current()));
-  for (TopExp_Explorer face(whole, TopAbs_FACE, TopAbs_SOLID); face.More(); face.Next())
+  for (TopExp_Explorer face(whole, TopAbs_FACE, TopAbs_SOLID); face.More(); face.Next()) {
+    if (known.Contains(face.Current())) continue;
+    known.Add(face.Current());
     model.sheets.push_back(face.Current());
+  }
 }
 
 void keep_bodies(const std::vector<std::string>& wanted, const std::string& source, CadModel& model) {
