@@ -17,6 +17,7 @@
 #include "tools/tetmesh/meshing.hpp"
 #include "tools/tetmesh/solid/body_union.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
+#include "tools/tetmesh/solid/flat_triangles.hpp"
 #include "tools/tetmesh/solid/repair_steps.hpp"
 #include "tools/tetmesh/solid/sheets.hpp"
 #include "tools/tetmesh/tetgen/build_mesh.hpp"
@@ -179,10 +180,11 @@ TetmeshResult tetmesh(formats::SurfaceSoup soup, const TetmeshOptions& options) 
     mend_folds = [&](formats::SurfaceSoup& given) { solid::mend_folds(given, *repaired); };
   solid::Surface tagged =
       solid::boundary_of(std::move(soup), options.shells, options.baffles, remedy, warnings, mend_folds);
+  const bool triangles_stay = options.surface == SurfaceKind::keep;
+  if (!triangles_stay) solid::flip_flat_triangles(tagged);
   if (options.tag_angle) solid::tag_by_angle(tagged, *options.tag_angle);
   solid::name_tags(tagged, options.tag_names);
   const solid::Surface surface = std::move(tagged);
-  const bool triangles_stay = options.surface == SurfaceKind::keep;
   sizing::SizeDemand demand = sizing::demand_on(surface, options.sizes, options.feature_angle, triangles_stay);
   if (auto complaint = complaint_about_size(surface, demand.greatest)) warnings.push_back(*std::move(complaint));
   add_asked_sizes(surface, options.asked_sizes, options.tetgen_timeout, demand);
