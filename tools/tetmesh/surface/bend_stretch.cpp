@@ -11,11 +11,13 @@
 namespace hexpipe::tetmesh::surface {
 namespace {
 
-// A bend is how far the surface turns within this many sizes on both sides; nearer than the second number to a feature
-// on both sides it cannot be told from the shape of triangles.
+// A bend is how far the surface turns within this many sizes on both sides, up to features; bends that turn back on the
+// other side do not count, and nothing is known where both ways together are shorter than the second number.
 constexpr double bend_reach = 0.5, least_way = 0.2;
-// Rows lie at most this many times as close as the size.
-constexpr double most_stretch = 3;
+// Surfaces that turn by less, in radians, are flat.
+constexpr double least_turn_of_bend = 0.0175;
+// Rows lie at most this many times as close as the size, as steps along curves (curve_rows.cpp) do.
+constexpr double most_stretch = 1.5;
 // The stretch of a triangle is the least within this many sizes along the bend, looked for at these steps. With half or
 // twice of that, there are as many hexes; without it, more by volume, but the rows that end where bends taper cost some
 // models 10 % of the number.
@@ -23,8 +25,9 @@ constexpr double even_reach = 4, even_step = 0.25;
 // Where rows along the bend would have to be so many times as close as well, the surface bends both ways, as organic
 // models do, and rows stay as they are.
 constexpr double both_ways = 1.3;
-// The most triangles on a way of turn_towards(). If there are more, they are needles without a width.
+// A way may cross this many triangles. If there are more, they are needles without a width.
 constexpr int most_bent_over = 1000;
+constexpr double unknown = 0;
 
 class BendFinder {
  public:
@@ -33,15 +36,14 @@ class BendFinder {
         field_(field),
         walker_(surface, field),
         stretch_(stretch),
-        asked_(surface.triangles.size(), {1, 1}) {}
+        asked_(surface.triangles.size(), {unknown, unknown}) {}
 
   void add() {
     for_each_free([&](std::int32_t f) { asked_[f] = {asked_across(f, 0), asked_across(f, 1)}; });
     for_each_free([&](std::int32_t f) {
       for (std::size_t across = 0; across < 2; ++across) {
-        if (asked_[f][across] <= stretch_.factor[f]) continue;
         const double least = least_along(f, across);
-        if (least <= stretch_.factor[f]) continue;
+        if (!(least > stretch_.factor[f])) continue;
         stretch_.factor[f] = least;
         stretch_.along[f] = field_.axes(surface_, f)[1 - across];
       }
@@ -62,16 +64,17 @@ class BendFinder {
   // by k c^2 / 8.
   double asked_across(std::int32_t f, std::size_t axis) const {
     const Vec3 direction = field_.axes(surface_, f)[axis];
-    double turn = 0, length = 0;
-    for (const double sign : {1.0, -1.0}) turn += turn_towards(f, sign * direction, length);
     const double size = surface_.sizes[f], chord_height = surface_.chord_heights[f];
-    if (length < least_way * size) return 1;
-    return std::clamp(size * std::sqrt(std::abs(turn) / length / (8 * chord_height)), 1.0, most_stretch);
+    double length = 0;
+    const double turn = std::abs(turn_on(f, direction, length) + turn_on(f, -direction, length));
+    if (!(length > least_way * size)) return unknown;
+    if (!(turn > least_turn_of_bend)) return 1;
+    return std::clamp(size * std::sqrt(turn / length / (8 * chord_height)), 1.0, most_stretch);
   }
 
-  // By how much the normal turns on a straight way, in radians, more than 0 where the surface bends away from it. Adds
-  // the length of the way.
-  double turn_towards(std::int32_t f, Vec3 way, double& length) const {
+  // By how much a straight way bends with the surface, in radians, more than 0 where the surface falls off. Adds the
+  // length of the way.
+  double turn_on(std::int32_t f, Vec3 way, double& length) const {
     SurfacePoint at{surface_.centres[f], f};
     double turn = 0, left = bend_reach * surface_.sizes[f];
     for (int i = 0; i < most_bent_over; ++i) {
@@ -80,27 +83,28 @@ class BendFinder {
       left -= exit.length;
       if (left <= 0 || surface_.feature[exit.edge]) break;
       const std::int32_t next = geometry::triangle_of(surface_.twins[exit.edge]);
-      const double angle = angle_between(surface_.normals[at.triangle], surface_.normals[next]);
-      turn += dot(surface_.normals[next], way) > 0 ? angle : -angle;
+      const Vec3& normal = surface_.normals[next];
+      turn += std::atan2(dot(normal, way), dot(normal, surface_.normals[at.triangle]));
       at = {at.position + exit.length * way, next};
       way = unfolded_beyond(surface_, exit.edge, way);
     }
     return turn;
   }
 
-  // The least stretch that is asked for on the way along a bend; 1 if it bends along that way, too.
+  // The least stretch that is asked for on the way along a bend; 1 if the surface bends along that way, too.
   double least_along(std::int32_t f, std::size_t across) const {
     double least = asked_[f][across];
+    if (asked_[f][1 - across] > both_ways) return 1;
     const double step = even_step * surface_.sizes[f], reach = even_reach * surface_.sizes[f];
     for (const double sign : {1.0, -1.0}) {
       WalkEnd end{{surface_.centres[f], f}, sign * field_.axes(surface_, f)[1 - across]};
       for (double gone = 0; gone < reach && least > 1 && !end.at_feature; gone += step) {
         end = walker_.walk(end.point, end.heading, step);
-        const std::int32_t g = end.point.triangle;
-        const auto axes = field_.axes(surface_, g);
+        const auto axes = field_.axes(surface_, end.point.triangle);
         const std::size_t along = std::abs(dot(axes[0], end.heading)) > std::abs(dot(axes[1], end.heading)) ? 0 : 1;
-        if (asked_[g][along] > both_ways) return 1;
-        least = std::min(least, asked_[g][1 - along]);
+        const std::array<double, 2>& asked = asked_[end.point.triangle];
+        if (asked[along] > both_ways) return 1;
+        if (asked[1 - along] != unknown) least = std::min(least, asked[1 - along]);
       }
     }
     return least;
@@ -110,7 +114,8 @@ class BendFinder {
   const CrossField& field_;
   const FieldWalker walker_;
   BendStretch& stretch_;
-  std::vector<std::array<double, 2>> asked_;  // for ways along the two axes of each triangle
+  std::vector<std::array<double, 2>>
+      asked_;  // for ways along the two axes of each triangle; `unknown` on small fillets
 };
 
 }  // namespace

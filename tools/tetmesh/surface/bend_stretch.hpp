@@ -20,9 +20,10 @@ struct BendStretch {
   }
 };
 
-// Small fillets count as the edges that they round off (crest_lines.hpp). Across other bends, rows lie so close that a
-// straight line from one to the next leaves the surface by at most its `chord_heights`, as far as the bend goes on
-// evenly along the field: rows would have to end where it does not.
+// Small fillets count as the edges that they round off (crest_lines.hpp). Across other bends, where the surface has
+// `chord_heights`, rows lie so close that a straight line from one to the next leaves the surface by at most that, up
+// to a limit. That holds as far as the bend goes on evenly along the field, because rows would end where it does not,
+// and not where the surface bends both ways.
 BendStretch bend_stretch(const FieldSurface& surface, const CrossField& field);
 
 }  // namespace hexpipe::tetmesh::surface

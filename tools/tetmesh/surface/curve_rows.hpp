@@ -10,7 +10,7 @@
 namespace hexpipe::tetmesh::surface {
 
 // The rows follow the surface's cross field, on triangles as refine_surface() makes them with the last two lengths.
-// Straight lines from one to the next leave the surface by at most `chord_height` where it bends evenly.
+// Where the surface bends evenly, they lie closer (bend_stretch.hpp) by `chord_height`.
 std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const sizing::SizeField& size,
                                           const sizing::SizeField& chord_height, const sizing::SizeField& longest,
                                           const sizing::SizeField& flatness);

@@ -39,8 +39,8 @@ constexpr double sample_spacing = 0.34;
 // The share of the deviation that removing vertices may use. It measures only vertices, and some points of edges and
 // faces. The chords of feature curves take no more, or vertices between their ends could not go.
 constexpr double removal_share = 0.85;
-// Rows of points across a bend of the surface are so close that edges between them leave it by this share of the
-// deviation. With more of it, points of the input stay beside them.
+// Where the surface bends (bend_stretch.hpp), straight lines between rows of points may leave it by this share of the
+// deviation. With 0.85, as much as removing vertices may use, nothing is gained: lines along a diagonal leave it by more.
 constexpr double row_share = 0.5;
 // Edges that replace others are at most this many sizes long. Diagonals of rows that stretch are 2 sizes long.
 constexpr double longest_edge = 2.5;
