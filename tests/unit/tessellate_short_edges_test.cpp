@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 namespace hexpipe::tessellate {
 namespace {
@@ -27,6 +28,16 @@ formats::SurfaceSoup notched_cube(const Vec3& notch) {
 
 // In the bottom face, which it should stand above.
 const Vec3 inside_the_bottom{0.003, 0.004, 0};
+
+TEST(ShortEdges, OfNoLengthHaveTheirEndsJoined) {
+  for (const auto& [up, expected] : {std::pair(1e-9, 1u), std::pair(1e-7, 0u)}) {
+    const formats::SurfaceSoup cube = notched_cube({0, 0, up});
+    JoinedSets same(cube.points.size());
+    EXPECT_EQ(join_ends_without_length(cube.triangles, cube.points, same), expected);
+    EXPECT_EQ(same.of(0) == same.of(8), expected == 1);
+    EXPECT_NE(same.of(8), same.of(4));
+  }
+}
 
 TEST(ShortEdges, AreGoneWhereTrianglesCross) {
   formats::SurfaceSoup cube = notched_cube(inside_the_bottom);

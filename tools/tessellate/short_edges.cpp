@@ -13,6 +13,9 @@
 namespace hexpipe::tessellate {
 namespace {
 
+// The longest edge without a length, as a share of the diagonal: TetGen's own limit.
+constexpr double shortest_of_diagonal = 1e-8;
+
 // Each looks at all triangles. Slivers have few edges.
 constexpr int most_rounds = 32;
 
@@ -147,6 +150,26 @@ class Collapser {
 };
 
 }  // namespace
+
+std::size_t join_ends_without_length(std::span<const Triangle> triangles, std::span<const Vec3> nodes,
+                                     JoinedSets& same) {
+  if (nodes.empty()) return 0;
+  Vec3 low = nodes.front(), high = low;
+  for (const Vec3& p : nodes) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double shortest = shortest_of_diagonal * norm(high - low);
+  std::size_t count = 0;
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = same.of(t[k]), b = same.of(t[(k + 1) % 3]);
+      if (a == b || norm(nodes[b] - nodes[a]) > shortest) continue;
+      same.join(a, b);
+      ++count;
+    }
+  return count;
+}
 
 std::vector<std::array<std::int32_t, 2>> crossings_of_bodies(const formats::SurfaceSoup& surface) {
   auto pairs = crossing_triangles(surface.points, surface.triangles);

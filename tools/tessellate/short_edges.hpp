@@ -1,14 +1,21 @@
 #pragma once
-// Edges that are shorter than triangles may be off, where these cross each other.
+// Edges without a length, and those that are shorter than triangles may be off, where these cross each other.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "common/mesh/joined_sets.hpp"
 #include "formats/surfaces/surface_soup.hpp"
 
 namespace hexpipe::tessellate {
+
+// CAD has slivers with points at one place but for rounding, between which triangles are flat; TetGen takes such points
+// for one. Joins the ends of edges that are no longer than 1e-8 of the diagonal of all nodes. Returns how many.
+std::size_t join_ends_without_length(std::span<const Triangle> triangles, std::span<const Vec3> nodes,
+                                     JoinedSets& same);
 
 // The triangles of one body that cross each other, in pairs. Bodies that touch or overlap do so however fine they are.
 std::vector<std::array<std::int32_t, 2>> crossings_of_bodies(const formats::SurfaceSoup& surface);

@@ -53,20 +53,27 @@ constexpr double deviation_of_size = 0.01;
 // make triangles for ever.
 constexpr double size_of_diagonal = 0.05, least_thickness = 1e-6;
 
-// How fine triangles are, beside what the options say.
+// How fine triangles are: the factors of what the options say.
 struct Fineness {
-  bool small_angle = false;
-  double deviation = 1;  // as a factor
+  double angle = 1;
+  double deviation = 1;
+
+  bool is_coarser() const { return angle > 1 || deviation > 1; }
+  double angle_of(const TriangulationOptions& options) const {
+    return angle < 1 ? std::min(least_small_angle, angle * options.angle) : angle * options.angle;
+  }
+  static constexpr double least_small_angle = 5;  // in degrees
 };
-// In degrees, or a third of what the option says.
-constexpr double small_angle = 5;
 
 // What is tried where triangles cross. BRepMesh keeps the triangles of a face, and its points on edges, unless they
-// were taken away or are less fine than the deviation asks for. So a smaller angle concerns these faces alone, a
-// greater deviation also those beside them, whose points on edges would stay, and a smaller deviation all. On HexMe's
-// i27 the first helps, on splines of I-DEAS with many knots the second or the third.
-constexpr std::array fineness_where_crossing{Fineness{true, 1}, Fineness{false, 0.5}, Fineness{false, 2},
-                                             Fineness{false, 4}, Fineness{true, 0.25}};
+// were taken away or are less fine than the deviation asks for. So a smaller angle concerns these faces alone, what is
+// coarser also those beside them, whose points on edges would stay, and a smaller deviation all. On HexMe's i27 the
+// first helps, on splines of I-DEAS with many knots the second or the third, on an engine block among Gmsh's
+// benchmarks the last one, which takes the triangles of all faces away.
+constexpr double smaller_angle = 1.0 / 3, larger_angle = 2;
+constexpr std::array fineness_where_crossing{
+    Fineness{smaller_angle, 1},    Fineness{1, 0.5},         Fineness{1, 2}, Fineness{1, 4},
+    Fineness{smaller_angle, 0.25}, Fineness{larger_angle, 2}};
 // So large a model is not made finer.
 constexpr std::size_t most_triangles = 1'000'000;
 
@@ -134,6 +141,7 @@ class Triangulator {
     choose_tags();
     for (std::size_t body = 0; body < model_.bodies.size(); ++body) add_body(body);
     close_tips();
+    result_.joined_nodes += join_ends_without_length(result_.surface.triangles, nodes_, same_);
     add_curves();
     number_points();
     Attempt attempt;
@@ -471,7 +479,7 @@ void Triangulator::add_curves() {
 std::vector<bool> Triangulator::flat_pairs() {
   const std::vector<Triangle>& triangles = result_.surface.triangles;
   std::vector<bool> is_flat(triangles.size());
-  if (tips_.empty()) return is_flat;
+  if (result_.joined_nodes == 0) return is_flat;
   std::map<Triangle, std::size_t> seen;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     Triangle t = triangles[i];
@@ -590,8 +598,14 @@ void Triangulator::find_crossings(Attempt& attempt) const {
   }
 }
 
-// With the faces that share edges with them: points on edges stay as fine as any face beside them asks for.
-TopTools_IndexedMapOfShape with_neighbours(const TopTools_IndexedMapOfShape& faces, const TopoDS_Compound& whole) {
+// The faces whose triangles go before others are made. Where those are coarser, faces that share edges with the
+// crossing ones are among them, because points on edges stay as fine as any face beside them asks for.
+TopTools_IndexedMapOfShape faces_to_clean(const Fineness& fineness, const TopTools_IndexedMapOfShape& faces,
+                                          const TopoDS_Compound& whole) {
+  TopTools_IndexedMapOfShape all;
+  TopExp::MapShapes(whole, TopAbs_FACE, all);
+  if (fineness.angle > 1) return all;
+  if (!fineness.is_coarser()) return faces;
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edge;
   TopExp::MapShapesAndAncestors(whole, TopAbs_EDGE, TopAbs_FACE, faces_of_edge);
   TopTools_IndexedMapOfShape result = faces;
@@ -613,8 +627,7 @@ std::optional<Attempt> attempt_anew(const CadModel& model, const TopoDS_Compound
                                     const TopTools_IndexedMapOfShape& faces, const std::string& source) {
   try {
     for (int f = 1; f <= faces.Extent(); ++f) BRepTools::Clean(faces(f));
-    const double angle = fineness.small_angle ? std::min(small_angle, options.angle / 3) : options.angle;
-    mesh(whole, fineness.deviation * deviation, angle);
+    mesh(whole, fineness.deviation * deviation, fineness.angle_of(options));
     return Triangulator(model, whole, options, std::max(1.0, fineness.deviation) * deviation, source).run();
   } catch (const Standard_Failure&) {
     return std::nullopt;
@@ -648,10 +661,9 @@ Triangulation triangulate(const CadModel& model, const TriangulationOptions& opt
   TopTools_IndexedMapOfShape crossing = first.crossing_faces;
   for (const Fineness& fineness : fineness_where_crossing) {
     if (fineness.deviation > 1 && options.deviation) continue;
-    if (fineness.deviation <= 1 && first.made.surface.triangles.size() > most_triangles) continue;
-    const bool is_coarser = fineness.deviation > 1;
-    std::optional<Attempt> attempt = attempt_anew(model, whole, options, fineness, deviation,
-                                                  is_coarser ? with_neighbours(crossing, whole) : crossing, source);
+    if (!fineness.is_coarser() && first.made.surface.triangles.size() > most_triangles) continue;
+    std::optional<Attempt> attempt =
+        attempt_anew(model, whole, options, fineness, deviation, faces_to_clean(fineness, crossing, whole), source);
     if (!attempt) continue;
     attempt->made.made_anew = {first.crossings, true};
     if (attempt->crossings == 0) return std::move(attempt->made);

@@ -197,17 +197,19 @@ void check_vertices(const formats::SurfaceSoup& soup, std::span<const geometry::
                       count == 1 ? "1 vertex" : fmt::format("{} vertices", count), text_of(soup.points[v]));
 }
 
-// The options of tessellate that may help with intersections. Only its bundles say what is on the sides; bodies that
-// share a face were joined.
-const char* hint_for_cad(const formats::SurfaceSoup& soup) {
+// The options of tessellate that may help with intersections. Only its bundles say what is on the sides.
+const char* hint_for_cad(const formats::SurfaceSoup& soup, std::span<const std::array<std::int32_t, 2>> pairs) {
   if (soup.sides.empty()) return "";
-  const auto is_of_another = [](const auto& sides) { return sides[0] > 1 || sides[1] > 1; };
-  const auto is_shared = [](const auto& sides) { return sides[0] > 0 && sides[1] > 0; };
-  return std::ranges::any_of(soup.sides, is_of_another) && std::ranges::none_of(soup.sides, is_shared)
-             ? "; where bodies touch, tessellate --join makes one face of two"
+  const auto are_of_two_bodies = [&](const std::array<std::int32_t, 2>& pair) {
+    const auto &one = soup.sides[pair[0]], &other = soup.sides[pair[1]];
+    return std::ranges::none_of(
+        one, [&](std::int32_t region) { return region > 0 && std::ranges::find(other, region) != other.end(); });
+  };
+  return std::ranges::all_of(pairs, are_of_two_bodies)
+             ? "; where bodies touch, tessellate --join makes one face of two; where they are joined, try another "
+               "--deviation"
              : "; from CAD, try another --deviation, larger or smaller, or --angle of tessellate, or tessellate --open "
-               "| "
-               "wrap";
+               "| wrap";
 }
 
 // How many of the pairs are of two bodies that --unite takes: they are closed, as far as the edges go that they have
@@ -250,7 +252,7 @@ void check_no_intersections(const formats::SurfaceSoup& soup, const geometry::In
       soup.place_of(report.pairs.front()[0]),
       "expected a surface that does not intersect itself, found {}{} of triangles that do; the first: {}{}{}",
       report.complete ? "" : "more than ", count_of(report.pairs.size(), "pair"), list_of(soup, report.pairs.front()),
-      hint_for_cad(soup), remedy_for(soup, report.pairs, remedy)));
+      hint_for_cad(soup, report.pairs), remedy_for(soup, report.pairs, remedy)));
 }
 
 }  // namespace
