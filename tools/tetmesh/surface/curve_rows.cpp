@@ -17,7 +17,7 @@ constexpr double most_step_ratio = 1.5;
 class CurveMeasurer {
  public:
   CurveMeasurer(const FeatureMesh& refined, std::size_t own_vertices, const sizing::SizeField& size,
-                const sizing::SizeField& chord_height)
+                const std::optional<sizing::SizeField>& chord_height)
       : mesh_(refined),
         own_vertices_(own_vertices),
         size_(size),
@@ -113,8 +113,8 @@ class CurveMeasurer {
 }  // namespace
 
 std::vector<MeasuredCurve> curves_by_rows(const FeatureMesh& mesh, const sizing::SizeField& size,
-                                          const sizing::SizeField& chord_height, const sizing::SizeField& longest,
-                                          const sizing::SizeField& flatness) {
+                                          const std::optional<sizing::SizeField>& chord_height,
+                                          const sizing::SizeField& longest, const sizing::SizeField& flatness) {
   FeatureMesh refined = mesh;
   refine_surface(refined, longest, flatness);
   const CurveMeasurer measurer(refined, mesh.n_vertices(), size, chord_height);

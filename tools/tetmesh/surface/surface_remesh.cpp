@@ -29,7 +29,8 @@ namespace {
 // The longest edges of the triangles that carry the field, and of those on which rows are counted, in sizes.
 constexpr double field_edge = 1.3, row_edge = 2.6;
 // If the points on features are less than this share of all points on the surface, their number makes no difference.
-constexpr double few_features = 0.05;
+// Organic surfaces have up to the second share, CAD has more; the bends of the first are not even.
+constexpr double few_features = 0.05, features_of_cad = 0.1;
 // Flips that move the surface by less than this, in sizes, do not count as moving it.
 constexpr double flatness = 1e-5;
 // Points nearer than this, in sizes, to a vertex or an edge of the field's triangles become one with it.
@@ -40,7 +41,8 @@ constexpr double sample_spacing = 0.34;
 // faces. The chords of feature curves take no more, or vertices between their ends could not go.
 constexpr double removal_share = 0.85;
 // Where the surface bends (bend_stretch.hpp), straight lines between rows of points may leave it by this share of the
-// deviation. With 0.85, as much as removing vertices may use, nothing is gained: lines along a diagonal leave it by more.
+// deviation. With 0.85, as much as removing vertices may use, nothing is gained: lines along a diagonal leave it by
+// more.
 constexpr double row_share = 0.5;
 // Edges that replace others are at most this many sizes long. Diagonals of rows that stretch are 2 sizes long.
 constexpr double longest_edge = 2.5;
@@ -98,7 +100,7 @@ class SurfaceRemesher::Work {
   // False if triangles are too thin for a field.
   bool place_points();
   void place_front(const RowGuide& guide);
-  bool rows_go_across() const;
+  double share_on_features() const;
   void remove_vertices_of_input();
   void join_points_beside_features(FeatureMesh& mesh) const;
   // Where the surface that was made is not as promised.
@@ -192,26 +194,27 @@ bool SurfaceRemesher::Work::prepare() {
   return placed;
 }
 
-// Rows end where sizes differ. Where features are few, the surface between them matters more.
-bool SurfaceRemesher::Work::rows_go_across() const {
-  if (!size_.is_uniform()) return false;
+// Rows end where sizes differ; then 0. Where features are few, the surface between them matters more.
+double SurfaceRemesher::Work::share_on_features() const {
+  if (!size_.is_uniform()) return 0;
   double steps = 0;
   for (const auto e : prepared_.edges())
     if (prepared_.is_feature(e)) steps += prepared_.calc_edge_length(e) / size_.greatest();
-  return steps > few_features * expected_points_;
+  return steps / expected_points_;
 }
 
 bool SurfaceRemesher::Work::place_points() {
   if (size_.is_uniform()) prepared_.add_crests(crest_lines(prepared_, size_));
   const sizing::SizeField longest = field_edge * size_, flat = flatness * size_;
+  const double on_features = share_on_features();
+  const bool counts_rows = on_features > few_features;
   std::optional<sizing::SizeField> chord_height;
-  if (rows_go_across()) {
-    chord_height = row_share * deviation_;
-    sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, *chord_height, row_edge * size_, flat), size_,
+  if (on_features > features_of_cad) chord_height = row_share * deviation_;
+  if (counts_rows)
+    sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, chord_height, row_edge * size_, flat), size_,
                           removal_share * deviation_);
-  } else {
+  else
     sample_feature_curves(prepared_, size_, removal_share * deviation_);
-  }
   refine_surface(prepared_, longest, flat);
   const std::vector<Vertex> kept = kept_vertices();
   std::optional<Step> step(std::in_place, nullptr, 0.2, 0.6);
@@ -220,7 +223,7 @@ bool SurfaceRemesher::Work::place_points() {
   if (!std::ranges::all_of(field.field.directions, is_place)) return false;
   step.reset();
   step.emplace(nullptr, 0.6, 0.8);
-  carrier_.emplace(prepared_, kept, std::move(field_surface), std::move(field), chord_height ? row_stretch_ : 0);
+  carrier_.emplace(prepared_, kept, std::move(field_surface), std::move(field), counts_rows ? row_stretch_ : 0);
   place_front({});
   return true;
 }
