@@ -12,6 +12,7 @@
 #include <gp_Pln.hxx>
 #include <map>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "tools/tessellate/face_gaps.hpp"
@@ -65,6 +66,28 @@ TEST(FillGaps, TakesABorderThatGoesTheWrongWay) {
   EXPECT_TRUE(one.are_closed);
   ASSERT_EQ(one.triangles.size(), 1u);
   EXPECT_NEAR(area_of(one.triangles, nodes).z, -4, 1e-12);
+}
+
+// A square with a square hole.
+TEST(FillGaps, TakesAHoleThatGoesTheWrongWay) {
+  std::vector<Vec3> nodes;
+  for (const double half : {4.0, 1.0})
+    for (const auto& [x, y] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+      nodes.push_back({5 + half * x, 5 + half * y, 0});
+  std::vector<Triangle> triangles;
+  std::vector<NodeEdge> border;
+  for (std::int32_t i = 0; i < 4; ++i) {
+    const std::int32_t next = (i + 1) % 4;
+    triangles.insert(triangles.end(), {Triangle{i, next, i + 4}, Triangle{next, next + 4, i + 4}});
+    border.insert(border.end(), {NodeEdge{i, next}, NodeEdge{i + 4, next + 4}});
+  }
+  EXPECT_TRUE(fill_gaps(plane(), border, triangles, nodes, 0.1).are_closed);
+  EXPECT_THAT(fill_gaps(plane(), border, triangles, nodes, 0.1).triangles, IsEmpty());
+  const Triangle gone = triangles.front();
+  triangles.erase(triangles.begin());
+  const FilledGaps one = fill_gaps(plane(), border, triangles, nodes, 0.1);
+  EXPECT_TRUE(one.are_closed);
+  EXPECT_NEAR(area_of(one.triangles, nodes).z, area_of({gone}, nodes).z, 1e-12);
 }
 
 TEST(FillGaps, AddsNothingWhereThereAreNone) {

@@ -69,7 +69,7 @@ TEST(FlatTriangles, StayAtCurvesAndWhereTagsMeet) {
 TEST(FlatTriangles, NeedlesStay) {
   Surface surface = cube_with_flat_triangles();
   for (Vec3& p : surface.points)
-    if (p.z > 3.9 && p.x > 0.5 && p.x < 3.5) p = {4 - (4 - p.x) * 1e-6, 4 - (4 - p.y) * 1e-6, 4};
+    if (p.z > 3.9 && p.x > 0.5 && p.x < 3.5) p = {4 - (4 - p.x) * 2e-5, 4 - (4 - p.y) * 2e-5, 4};
   EXPECT_EQ(flip_flat_triangles(surface), 0u);
 }
 

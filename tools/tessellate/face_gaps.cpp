@@ -17,6 +17,8 @@
 #include <map>
 #include <queue>
 
+#include "common/mesh/joined_sets.hpp"
+
 namespace hexpipe::tessellate {
 namespace {
 
@@ -39,8 +41,8 @@ class WantedEdges {
  public:
   WantedEdges(std::span<const NodeEdge> border, std::span<const Triangle> triangles) {
     for (const auto& [a, b, c] : triangles) add(a, b, -1), add(b, c, -1), add(c, a, -1);
-    const int sense = goes_the_wrong_way(border) ? -1 : 1;
-    for (const auto& [from, to] : border) add(from, to, sense);
+    const std::vector<int> senses = senses_of(border);
+    for (std::size_t i = 0; i < border.size(); ++i) add(border[i].first, border[i].second, senses[i]);
   }
 
   // The loops that they form. Edges that are left over form a loop, too, which no triangles near the face close.
@@ -70,13 +72,21 @@ class WantedEdges {
   }
 
  private:
-  // As the border of OpenCASCADE's own torus does: most of its edges are those of triangles from the other side.
-  bool goes_the_wrong_way(std::span<const NodeEdge> border) const {
-    int balance = 0;
+  // -1 for edges of wires that go the wrong way, as that of OpenCASCADE's own torus does: most of their edges are those
+  // of triangles from the other side.
+  std::vector<int> senses_of(std::span<const NodeEdge> border) const {
+    std::map<std::int32_t, std::int32_t> number;  // of each node on the border
+    for (const auto& [from, to] : border)
+      for (const std::int32_t node : {from, to}) number.try_emplace(node, static_cast<std::int32_t>(number.size()));
+    JoinedSets wires(number.size());
+    for (const auto& [from, to] : border) wires.join(number[from], number[to]);
+    std::vector<int> balance(number.size());
     for (const auto& [from, to] : border)
       if (const auto found = count_.find(edge_key(from, to)); found != count_.end())
-        balance += from < to ? found->second : -found->second;
-    return balance > 0;
+        balance[wires.of(number[from])] += from < to ? found->second : -found->second;
+    std::vector<int> senses;
+    for (const auto& [from, to] : border) senses.push_back(balance[wires.of(number[from])] > 0 ? -1 : 1);
+    return senses;
   }
   void add(std::int32_t from, std::int32_t to, int count) {
     if (from != to) count_[edge_key(from, to)] += from < to ? count : -count;

@@ -25,8 +25,8 @@ struct FilledGaps {
 };
 
 // Closes the gaps between the triangles of a face (maybe none) and its border, the edges of its wires with the face on
-// their left (or all on their right, where there are triangles to tell), by triangles within `deviation`, and the
-// tolerance of its edges, of the face.
+// their left (or a wire with it on its right, where there are triangles to tell), by triangles within `deviation`, and
+// the tolerance of its edges, of the face.
 FilledGaps fill_gaps(const TopoDS_Face& face, std::span<const NodeEdge> border, std::span<const Triangle> triangles,
                      const std::vector<Vec3>& nodes, double deviation);
 

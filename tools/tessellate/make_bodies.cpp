@@ -80,12 +80,19 @@ bool has_closed_shell(const TopoDS_Shape& shape) {
 }
 
 // Each face that stands alone gets a shell of its own. It may be closed, as the single face of a sphere or a torus is.
+// Faces of shells that are listed again beside them do not stand alone.
 TopoDS_Shape with_shells(const TopoDS_Shape& shape) {
   BRep_Builder builder;
   TopoDS_Compound result;
   builder.MakeCompound(result);
-  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next()) builder.Add(result, shell.Current());
+  TopTools_IndexedMapOfShape known;
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next()) {
+    builder.Add(result, shell.Current());
+    TopExp::MapShapes(shell.Current(), TopAbs_FACE, known);
+  }
   for (TopExp_Explorer face(shape, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next()) {
+    if (known.Contains(face.Current())) continue;
+    known.Add(face.Current());
     TopoDS_Shell shell;
     builder.MakeShell(shell);
     builder.Add(shell, face.Current());

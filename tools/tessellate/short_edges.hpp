@@ -13,7 +13,8 @@
 namespace hexpipe::tessellate {
 
 // CAD has slivers with points at one place but for rounding, between which triangles are flat; TetGen takes such points
-// for one. Joins the ends of edges that are no longer than 1e-8 of the diagonal of all nodes. Returns how many.
+// for one. Joins the ends of edges that are no longer than 1e-8 of the diagonal of all nodes, even where sheets then
+// touch. Returns how many.
 std::size_t join_ends_without_length(std::span<const Triangle> triangles, std::span<const Vec3> nodes,
                                      JoinedSets& same);
 

@@ -28,12 +28,13 @@ struct TessellateResult {
   formats::SurfaceSoup surface;
   pipeline::ExactShape shape;
   std::size_t bodies = 0, faces = 0, curves = 0;
-  double deviation = 0;                             // in the units that are written
-  std::string unit;                                 // of the output; empty if the file names none
-  std::size_t overlaps = 0;                         // pairs of bodies that overlapped
-  std::size_t crossings = 0;                        // pairs of triangles that crossed each other at first
-  std::size_t collapsed_edges = 0;                  // short ones where triangles crossed, which became points
-  std::size_t gap_triangles = 0, joined_nodes = 0;  // where OpenCASCADE's triangles left gaps
+  double deviation = 0;             // in the units that are written
+  std::string unit;                 // of the output; empty if the file names none
+  std::size_t overlaps = 0;         // pairs of bodies that overlapped
+  std::size_t crossings = 0;        // pairs of triangles that crossed each other at first
+  std::size_t collapsed_edges = 0;  // short ones where triangles crossed, which became points
+  std::size_t gap_triangles = 0;    // where OpenCASCADE's triangles left gaps
+  std::size_t joined_nodes = 0;     // there, and at edges without a length
   std::vector<std::string> warnings;
 };
 

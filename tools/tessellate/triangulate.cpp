@@ -475,7 +475,8 @@ void Triangulator::add_curves() {
   }
 }
 
-// Triangles that have the same nodes as another one from the other side: between the sides of a tip that became one.
+// Triangles that have the same nodes as another one from the other side, of the same body: between the sides of a tip
+// that became one, and of slivers whose nodes did.
 std::vector<bool> Triangulator::flat_pairs() {
   const std::vector<Triangle>& triangles = result_.surface.triangles;
   std::vector<bool> is_flat(triangles.size());
@@ -486,7 +487,7 @@ std::vector<bool> Triangulator::flat_pairs() {
     for (Vertex& v : t) v = same_.of(v);
     std::ranges::rotate(t, std::ranges::min_element(t));
     const auto other = seen.find({t[0], t[2], t[1]});
-    if (other == seen.end()) {
+    if (other == seen.end() || result_.surface.sides[i] != result_.surface.sides[other->second]) {
       seen.emplace(t, i);
       continue;
     }
@@ -661,6 +662,7 @@ Triangulation triangulate(const CadModel& model, const TriangulationOptions& opt
   TopTools_IndexedMapOfShape crossing = first.crossing_faces;
   for (const Fineness& fineness : fineness_where_crossing) {
     if (fineness.deviation > 1 && options.deviation) continue;
+    if (fineness.angle > 1 && options.angle != TriangulationOptions{}.angle) continue;
     if (!fineness.is_coarser() && first.made.surface.triangles.size() > most_triangles) continue;
     std::optional<Attempt> attempt =
         attempt_anew(model, whole, options, fineness, deviation, faces_to_clean(fineness, crossing, whole), source);

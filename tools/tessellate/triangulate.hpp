@@ -30,8 +30,9 @@ struct Triangulation {
   pipeline::ExactShape shape;    // what it was made of
   std::size_t faces = 0, curves = 0;
   double deviation = 0;
-  std::size_t gap_triangles = 0, joined_nodes = 0;  // where OpenCASCADE's triangles left gaps (face_gaps.hpp)
-  std::size_t empty_faces = 0;                      // open ones of which OpenCASCADE made no triangles
+  std::size_t gap_triangles = 0;  // where OpenCASCADE's triangles left gaps (face_gaps.hpp)
+  std::size_t joined_nodes = 0;   // there, and at edges without a length (short_edges.hpp)
+  std::size_t empty_faces = 0;    // open ones of which OpenCASCADE made no triangles
   MadeAnew made_anew;
 };
 

@@ -5,6 +5,7 @@
 
 #include "common/mesh/facet_key.hpp"
 #include "tools/tetmesh/geometry/half_edges.hpp"
+#include "tools/tetmesh/geometry/triangle_boxes.hpp"
 #include "tools/tetmesh/solid/borders.hpp"
 
 namespace hexpipe::tetmesh::solid {
@@ -12,6 +13,8 @@ namespace {
 
 using geometry::HalfEdge;
 
+// The greatest height of a flat triangle, as a share of the diagonal, though rounding may be more far from the origin.
+constexpr double flattest_of_diagonal = 1e-6;
 // The middle corner of a flat triangle is this many of its heights away from the others, or two corners are one.
 constexpr double least_foot = 10;
 // The least cosine of the angle by which the triangle beyond turns.
@@ -19,7 +22,10 @@ constexpr double least_turn_cosine = 0.9;
 
 class FlatTriangleFlipper {
  public:
-  explicit FlatTriangleFlipper(Surface& surface) : surface_(surface), tolerance_(rounding_of(surface)) {}
+  explicit FlatTriangleFlipper(Surface& surface)
+      : surface_(surface),
+        tolerance_(
+            std::min(rounding_of(surface), flattest_of_diagonal * geometry::Box::around(surface.points).diagonal())) {}
 
   std::size_t run() {
     std::vector<std::int32_t> waiting;

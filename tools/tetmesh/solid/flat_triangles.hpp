@@ -7,8 +7,9 @@
 
 namespace hexpipe::tetmesh::solid {
 
-// Flips the longest edge of such a triangle, so that its third corner cuts the triangle beyond in two. Edges stay that
-// are curves, or where tags, shells or regions meet. Returns how many were flipped.
+// Flips the longest edge of such a triangle, so that its third corner cuts the triangle beyond in two; the surface
+// moves by at most a millionth of the diagonal. Edges stay that are curves, or where tags, shells or regions meet.
+// Returns how many were flipped.
 std::size_t flip_flat_triangles(Surface& surface);
 
 }  // namespace hexpipe::tetmesh::solid

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "common/run/parallel.hpp"
-#include "tools/tetmesh/surface/crest_lines.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
 
 namespace hexpipe::tetmesh::surface {
@@ -115,7 +114,7 @@ class BendFinder {
   const FieldWalker walker_;
   BendStretch& stretch_;
   std::vector<std::array<double, 2>>
-      asked_;  // for ways along the two axes of each triangle; `unknown` on small fillets
+      asked_;  // for ways along the two axes of each triangle; `unknown` on small fillets, too
 };
 
 }  // namespace
