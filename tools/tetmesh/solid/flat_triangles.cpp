@@ -15,7 +15,7 @@ using geometry::HalfEdge;
 
 // The greatest height of a flat triangle, as a share of the diagonal, though rounding may be more far from the origin.
 constexpr double flattest_of_diagonal = 1e-6;
-// The middle corner of a flat triangle is this many of its heights away from the others, or two corners are one.
+// The middle corner of a flat triangle is this many times that away from the others, or two corners are nearly one.
 constexpr double least_foot = 10;
 // The least cosine of the angle by which the triangle beyond turns.
 constexpr double least_turn_cosine = 0.9;

@@ -18,8 +18,7 @@ constexpr double least_turn_of_bend = 0.0175;
 // Rows lie at most this many times as close as the size, as steps along curves (curve_rows.cpp) do.
 constexpr double most_stretch = 1.5;
 // The stretch of a triangle is the least within this many sizes along the bend, looked for at these steps. With half or
-// twice of that, there are as many hexes; without it, more by volume, but the rows that end where bends taper cost some
-// models 10 % of the number.
+// twice of that, there are as many hexes; without it, rows end where bends taper.
 constexpr double even_reach = 4, even_step = 0.25;
 // Where rows along the bend would have to be so many times as close as well, the surface bends both ways, as organic
 // models do, and rows stay as they are.
