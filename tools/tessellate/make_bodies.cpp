@@ -79,23 +79,30 @@ bool has_closed_shell(const TopoDS_Shape& shape) {
   return false;
 }
 
+// The faces beside all solids, or beside all shells, each once. Gmsh and others write BREP files that have the faces of
+// solids again beside them.
+std::vector<TopoDS_Shape> faces_beside(const TopoDS_Shape& shape, TopAbs_ShapeEnum wholes) {
+  TopTools_IndexedMapOfShape known;
+  for (TopExp_Explorer one(shape, wholes); one.More(); one.Next()) TopExp::MapShapes(one.Current(), TopAbs_FACE, known);
+  std::vector<TopoDS_Shape> faces;
+  for (TopExp_Explorer face(shape, TopAbs_FACE, wholes); face.More(); face.Next()) {
+    if (known.Contains(face.Current())) continue;
+    known.Add(face.Current());
+    faces.push_back(face.Current());
+  }
+  return faces;
+}
+
 // Each face that stands alone gets a shell of its own. It may be closed, as the single face of a sphere or a torus is.
-// Faces of shells that are listed again beside them do not stand alone.
 TopoDS_Shape with_shells(const TopoDS_Shape& shape) {
   BRep_Builder builder;
   TopoDS_Compound result;
   builder.MakeCompound(result);
-  TopTools_IndexedMapOfShape known;
-  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next()) {
-    builder.Add(result, shell.Current());
-    TopExp::MapShapes(shell.Current(), TopAbs_FACE, known);
-  }
-  for (TopExp_Explorer face(shape, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next()) {
-    if (known.Contains(face.Current())) continue;
-    known.Add(face.Current());
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL); shell.More(); shell.Next()) builder.Add(result, shell.Current());
+  for (const TopoDS_Shape& face : faces_beside(shape, TopAbs_SHELL)) {
     TopoDS_Shell shell;
     builder.MakeShell(shell);
-    builder.Add(shell, face.Current());
+    builder.Add(shell, face);
     builder.Add(result, shell);
   }
   return result;
@@ -183,19 +190,11 @@ void make_bodies(const TopoDS_Shape& whole, const std::string& source, CadModel&
   add_open_shells(shells, model);
 }
 
-// Gmsh and others write BREP files that have the faces of solids again beside them.
 void find_sheets(const TopoDS_Shape& whole, CadModel& model) {
-  TopTools_IndexedMapOfShape known;
-  for (TopExp_Explorer solid(whole, TopAbs_SOLID); solid.More(); solid.Next())
-    TopExp::MapShapes(solid.Current(), TopAbs_FACE, known);
   for (TopExp_Explorer shell(whole, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
     for (TopExp_Explorer face(shell.Current(), TopAbs_FACE); face.More(); face.Next())
       model.names.set(face.Current(), model.names.of(shell.Current()));
-  for (TopExp_Explorer face(whole, TopAbs_FACE, TopAbs_SOLID); face.More(); face.Next()) {
-    if (known.Contains(face.Current())) continue;
-    known.Add(face.Current());
-    model.sheets.push_back(face.Current());
-  }
+  for (const TopoDS_Shape& face : faces_beside(whole, TopAbs_SOLID)) model.sheets.push_back(face);
 }
 
 void keep_bodies(const std::vector<std::string>& wanted, const std::string& source, CadModel& model) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "common/mesh/box_tree.hpp"
 #include "common/mesh/facet_key.hpp"
 #include "common/mesh/vec3.hpp"
 #include "tools/tessellate/crossings.hpp"
@@ -154,12 +155,7 @@ class Collapser {
 std::size_t join_ends_without_length(std::span<const Triangle> triangles, std::span<const Vec3> nodes,
                                      JoinedSets& same) {
   if (nodes.empty()) return 0;
-  Vec3 low = nodes.front(), high = low;
-  for (const Vec3& p : nodes) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const double shortest = shortest_of_diagonal * norm(high - low);
+  const double shortest = shortest_of_diagonal * Box::around(nodes).diagonal();
   std::size_t count = 0;
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {

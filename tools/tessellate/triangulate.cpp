@@ -603,13 +603,14 @@ void Triangulator::find_crossings(Attempt& attempt) const {
 // crossing ones are among them, because points on edges stay as fine as any face beside them asks for.
 TopTools_IndexedMapOfShape faces_to_clean(const Fineness& fineness, const TopTools_IndexedMapOfShape& faces,
                                           const TopoDS_Compound& whole) {
-  TopTools_IndexedMapOfShape all;
-  TopExp::MapShapes(whole, TopAbs_FACE, all);
-  if (fineness.angle > 1) return all;
   if (!fineness.is_coarser()) return faces;
+  TopTools_IndexedMapOfShape result = faces;
+  if (fineness.angle > 1) {
+    TopExp::MapShapes(whole, TopAbs_FACE, result);
+    return result;
+  }
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edge;
   TopExp::MapShapesAndAncestors(whole, TopAbs_EDGE, TopAbs_FACE, faces_of_edge);
-  TopTools_IndexedMapOfShape result = faces;
   for (int f = 1; f <= faces.Extent(); ++f)
     for (TopExp_Explorer edge(faces(f), TopAbs_EDGE); edge.More(); edge.Next())
       for (const TopoDS_Shape& beside : faces_of_edge.FindFromKey(edge.Current())) result.Add(beside);

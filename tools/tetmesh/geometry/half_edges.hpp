@@ -29,6 +29,11 @@ inline Vertex end_of(std::span<const Triangle> triangles, HalfEdge h) {
   return start_of(triangles, next_in_triangle(h));
 }
 
+// The corner across a half-edge in its triangle.
+inline Vertex corner_across(std::span<const Triangle> triangles, HalfEdge h) {
+  return start_of(triangles, previous_in_triangle(h));
+}
+
 // Calls visit once for every edge with all of its half-edges, of either direction, in ascending order. Edges are
 // ordered by their lower vertex, then by their higher one. No triangle may repeat a vertex.
 void for_each_edge(std::size_t vertex_count, std::span<const Triangle> triangles,

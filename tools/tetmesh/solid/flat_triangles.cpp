@@ -52,9 +52,7 @@ class FlatTriangleFlipper {
 
  private:
   const Vec3& point(Vertex v) const { return surface_.points[v]; }
-  Vertex corner_across(HalfEdge h) const {
-    return geometry::start_of(surface_.triangles, geometry::previous_in_triangle(h));
-  }
+  Vertex corner_across(HalfEdge h) const { return geometry::corner_across(surface_.triangles, h); }
 
   // Of a flat triangle; otherwise no_index.
   HalfEdge long_edge_of(std::int32_t t) const {

@@ -75,9 +75,7 @@ class Repairer {
   std::size_t count() const { return soup_.triangles.size(); }
   // Whether the corners are an even or an odd permutation of their ascending order.
   static int turn_of(const Triangle& t) { return (t[0] > t[1]) ^ (t[1] > t[2]) ^ (t[0] > t[2]); }
-  Vertex corner_across(geometry::HalfEdge h) const {
-    return geometry::start_of(soup_.triangles, geometry::previous_in_triangle(h));
-  }
+  Vertex corner_across(geometry::HalfEdge h) const { return geometry::corner_across(soup_.triangles, h); }
   bool is_harmed() const;
   void weld();
   void join_borders();

@@ -23,8 +23,6 @@ constexpr double even_reach = 4, even_step = 0.25;
 // Where rows along the bend would have to be so many times as close as well, the surface bends both ways, as organic
 // models do, and rows stay as they are.
 constexpr double both_ways = 1.3;
-// A way may cross this many triangles. If there are more, they are needles without a width.
-constexpr int most_bent_over = 1000;
 constexpr double unknown = 0;
 
 class BendFinder {
@@ -72,20 +70,17 @@ class BendFinder {
 
   // By how much a straight way bends with the surface, in radians, more than 0 where the surface falls off. Adds the
   // length of the way.
-  double turn_on(std::int32_t f, Vec3 way, double& length) const {
-    SurfacePoint at{surface_.centres[f], f};
+  double turn_on(std::int32_t f, const Vec3& way, double& length) const {
     double turn = 0, left = bend_reach * surface_.sizes[f];
-    for (int i = 0; i < most_bent_over; ++i) {
-      const TriangleExit exit = exit_of(surface_, at, way);
+    const auto add_turn = [&](const SurfacePoint& at, const Vec3& direction, const TriangleExit& exit) {
       length += std::min(exit.length, left);
       left -= exit.length;
-      if (left <= 0 || surface_.feature[exit.edge]) break;
-      const std::int32_t next = geometry::triangle_of(surface_.twins[exit.edge]);
-      const Vec3& normal = surface_.normals[next];
-      turn += std::atan2(dot(normal, way), dot(normal, surface_.normals[at.triangle]));
-      at = {at.position + exit.length * way, next};
-      way = unfolded_beyond(surface_, exit.edge, way);
-    }
+      if (left <= 0 || surface_.feature[exit.edge]) return false;
+      const Vec3& beyond = surface_.normals[geometry::triangle_of(surface_.twins[exit.edge])];
+      turn += std::atan2(dot(beyond, direction), dot(beyond, surface_.normals[at.triangle]));
+      return true;
+    };
+    walk_straight_over(surface_, {surface_.centres[f], f}, way, add_turn);
     return turn;
   }
 

@@ -21,8 +21,6 @@ constexpr double least_bend = 1 * one_degree, strip_bend = 0.1 * one_degree;
 constexpr double in_the_middle = 0.9, beside_the_middle = 1.1;
 // On both sides, the share of all turns that go one way.
 constexpr double least_one_way = 0.9;
-// The most triangles on a way across. If there are more, they are needles without a width.
-constexpr std::size_t most_across = 1000;
 // A line continues from one edge to the next if it turns by less than the angle, and counts if it has the least length
 // in sizes. Other lines nearer to it than the last number belong to the same fillet.
 constexpr double most_line_turn = 40 * one_degree, least_length = 4, same_fillet = 0.5;
@@ -37,10 +35,9 @@ struct Across {
 Across walk_across(const FieldSurface& surface, geometry::HalfEdge start, double near, double reach) {
   Across result;
   const Vec3& normal = surface.normals[geometry::triangle_of(start)];
-  SurfacePoint at{surface.points[geometry::start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start),
-                  geometry::triangle_of(start)};
-  Vec3 way = surface.inward(start);
-  for (double gone = 0; gone < reach && result.triangles.size() < most_across;) {
+  const Vec3 middle = surface.points[geometry::start_of(surface.triangles, start)] + 0.5 * surface.edge_vector(start);
+  double gone = 0;
+  const auto add = [&](const SurfacePoint& at, const Vec3&, const TriangleExit& exit) {
     result.triangles.push_back(at.triangle);
     const Vec3& here = surface.normals[at.triangle];
     result.turn = angle_between(normal, here);
@@ -48,12 +45,10 @@ Across walk_across(const FieldSurface& surface, geometry::HalfEdge start, double
       result.turn_near = result.turn;
       result.normal_near = here;
     }
-    const TriangleExit exit = exit_of(surface, at, way);
-    if (surface.feature[exit.edge]) break;
-    at = {at.position + exit.length * way, geometry::triangle_of(surface.twins[exit.edge])};
     gone += exit.length;
-    way = unfolded_beyond(surface, exit.edge, way);
-  }
+    return gone < reach;
+  };
+  walk_straight_over(surface, {middle, geometry::triangle_of(start)}, surface.inward(start), add);
   return result;
 }
 

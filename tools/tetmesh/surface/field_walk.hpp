@@ -27,6 +27,19 @@ TriangleExit exit_of(const FieldSurface& surface, const SurfacePoint& point, con
 // How a direction continues straight beyond an edge, with both triangles unfolded into one plane.
 Vec3 unfolded_beyond(const FieldSurface& surface, geometry::HalfEdge edge, const Vec3& direction);
 
+// Walks straight from triangle to triangle, up to a feature edge or as long as visit(point, direction, exit) says,
+// which is called in each triangle; and over at most 1000 of them: more are needles without a width.
+template <class Visit>
+void walk_straight_over(const FieldSurface& surface, SurfacePoint at, Vec3 direction, Visit&& visit) {
+  constexpr int most_triangles = 1000;
+  for (int i = 0; i < most_triangles; ++i) {
+    const TriangleExit exit = exit_of(surface, at, direction);
+    if (!visit(at, direction, exit) || surface.feature[exit.edge]) return;
+    at = {at.position + exit.length * direction, geometry::triangle_of(surface.twins[exit.edge])};
+    direction = unfolded_beyond(surface, exit.edge, direction);
+  }
+}
+
 class FieldWalker {
  public:
   FieldWalker(const FieldSurface& surface, const CrossField& field) : surface_(surface), field_(field) {}
