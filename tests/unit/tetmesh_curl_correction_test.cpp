@@ -57,6 +57,27 @@ TEST(CurlCorrection, SharesOutWhatIsMissing) {
   }
 }
 
+// Three paths of two links, each one step too short, share a link, which gains three quarters of a step.
+TEST(CurlCorrection, SparesLinksThatChangeMost) {
+  Loops loops;
+  for (std::int32_t i = 1; i <= 3; ++i) {
+    loops.add_step(0, false);
+    loops.add_step(i, false);
+    loops.close(2);
+  }
+  const std::vector<float> distances{0.5f, 0.5f, 0.5f, 0.5f}, lengths(4, 0.5f);
+  CurlLimits close{.stiffness = 0.001f, .most_iterations = 100, .tolerance = 1e-6};
+  const std::vector<float> even = curl_correction<1>(distances, loops, close, lengths);
+  EXPECT_NEAR(even[0], 0.75, 0.01);
+  close.rounds = 1;
+  close.soft_strain = 0.1;
+  const std::vector<float> spared = curl_correction<1>(distances, loops, close, lengths);
+  EXPECT_NEAR(spared[0], 0.5, 0.01) << "it counts three times as much as the others now";
+  for (std::size_t i = 1; i <= 3; ++i) EXPECT_NEAR(spared[0] + spared[i], 1, 0.02);
+  close.soft_strain = 2;
+  EXPECT_EQ(curl_correction<1>(distances, loops, close, lengths), even) << "none changes by more than that";
+}
+
 TEST(CurlCorrection, ForgetsStepsThatLedNowhere) {
   Loops loops = strip(1);
   loops.add_step(7, false);
@@ -145,10 +166,17 @@ void expect_as_plain(std::int32_t links) {
   std::vector<float> distances(K * static_cast<std::size_t>(links));
   for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = std::sin(static_cast<float>(i));
   constexpr CurlLimits few{.stiffness = 0.05f, .most_iterations = 6, .tolerance = 1e-6};
-  const std::vector<float> plain = plain_correction(distances, loops, few);
+  const std::vector<float> plain = plain_correction(distances, loops, few), lengths(static_cast<std::size_t>(links), 1);
+  CurlLimits stiffening = few;
+  stiffening.soft_strain = 0.1;
+  stiffening.rounds = 1;
+  std::vector<float> stiffened;
   for (const int threads : {1, 2, 3}) {
     const ThreadLimit limit(threads);
     EXPECT_EQ(curl_correction<K>(distances, loops, few), plain) << threads << " threads";
+    const std::vector<float> again = curl_correction<K>(distances, loops, stiffening, lengths);
+    if (threads == 1) stiffened = again;
+    EXPECT_EQ(again, stiffened) << threads << " threads";
   }
 }
 

@@ -2,6 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "common/mesh/adjacency.hpp"
+
 namespace hexpipe {
 using namespace tetmesh::volume;
 namespace {
@@ -29,6 +38,96 @@ TEST(StepsOnSurface, AreNoneInOnePlaneAndNotKnownBetweenNoneAndOne) {
     EXPECT_EQ(steps_on_surface(up, up, other, 0.2), 0);
     EXPECT_EQ(steps_on_surface(up, up, other, 0.5), std::nullopt);
   }
+}
+
+constexpr std::int32_t length = 6, height = 3;  // of a bar of cubes, each of six tets
+
+struct Bar {
+  TetMesh mesh;
+  FieldNodes nodes;
+  std::vector<tetmesh::fields::Frame> frames;
+
+  // Sizes grow by a quarter from one end to the other.
+  Bar() {
+    const auto is_inside = [](const std::array<std::int32_t, 3>& at) {
+      return at[0] > 0 && at[0] < length && at[1] > 0 && at[1] < height && at[2] > 0 && at[2] < height;
+    };
+    std::vector<std::array<std::int32_t, 3>> places;
+    for (std::int32_t z = 0; z <= height; ++z)
+      for (std::int32_t y = 0; y <= height; ++y)
+        for (std::int32_t x = 0; x <= length; ++x) places.push_back({x, y, z});
+    std::ranges::stable_partition(places, [&](const auto& at) { return !is_inside(at); });
+    std::map<std::array<std::int32_t, 3>, Vertex> number;
+    for (const auto& at : places) {
+      number[at] = static_cast<Vertex>(mesh.points.size());
+      mesh.points.push_back({static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
+      nodes.sizes.push_back(1 + 0.25 * at[0] / length);
+    }
+    for (const auto& at : places) {
+      if (at[0] == length || at[1] == height || at[2] == height) continue;
+      std::array<std::size_t, 3> order{0, 1, 2};
+      do {
+        auto corner = at;
+        Tet tet{number[corner]};
+        for (std::size_t i = 0; i < 3; ++i) {
+          ++corner[order[i]];
+          tet[i + 1] = number[corner];
+        }
+        if (tet_determinant(mesh.points, tet) < 0) std::swap(tet[2], tet[3]);
+        mesh.tets.push_back(tet);
+      } while (std::ranges::next_permutation(order).found);
+    }
+    mesh.tet_tags.assign(mesh.tets.size(), 0);
+    const TetAdjacency adjacency(mesh, "bar");
+    add_missing_boundary_triangles(mesh, adjacency, 0);
+    nodes.points = mesh.points;
+    nodes.triangles = mesh.triangles;
+    nodes.offsets.assign(1, 0);
+    for (Vertex v = 0; v < static_cast<Vertex>(mesh.points.size()); ++v) {
+      for (const Vertex u : adjacency.neighbours_of(v)) nodes.links.push_back({u, 1});
+      nodes.offsets.push_back(static_cast<std::int64_t>(nodes.links.size()));
+    }
+    for (const auto& at : places)
+      if (!is_inside(at)) nodes.surface.push_back(node_at(at));
+    frames.assign(mesh.points.size(), {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  }
+
+ private:
+  static SurfaceNode node_at(const std::array<std::int32_t, 3>& at) {
+    const auto outwards = [](std::int32_t i, std::int32_t last) { return i == 0 ? -1.0 : i == last ? 1.0 : 0.0; };
+    SurfaceNode node;
+    node.normal = {outwards(at[0], length), outwards(at[1], height), outwards(at[2], height)};
+    if (norm_squared(node.normal) > 1) node.kind = SurfaceNode::Kind::fixed;
+    node.normal = unit(node.normal);
+    return node;
+  }
+};
+
+// By the sizes alone, rows would rise from one end to the other: there are three of them there, and 2.4 here.
+TEST(LatticeField, HasLayersAlongFaces) {
+  const Bar bar;
+  const LatticeField field = solve_lattice_field(bar.nodes, bar.frames, std::vector<bool>(bar.nodes.surface.size()));
+  for (const Triangle& triangle : bar.mesh.triangles)
+    for (std::size_t side = 0; side < 3; ++side) {
+      const std::int32_t i = triangle[side], j = triangle[(side + 1) % 3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<int>(k);
+        if (std::ranges::any_of(
+                triangle, [&](Vertex v) { return bar.mesh.points[v][axis] != bar.mesh.points[triangle[0]][axis]; }))
+          continue;
+        EXPECT_NEAR(field.links[field.links.between(i, j)].distance[k], 0, 0.03) << i << ", " << j;
+      }
+    }
+  const auto rows_at = [&](double x) {
+    double rows = 0;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(bar.mesh.points.size()); ++i)
+      for (const LatticeLink& link : field.links.of(static_cast<std::size_t>(i))) {
+        const Vec3 &p = bar.mesh.points[i], way = bar.mesh.points[link.neighbour] - p;
+        if (p.x == x && p.y == 1 && way.x == 0 && way.y == 0 && way.z == 1) rows += std::abs(link.distance[2]);
+      }
+    return rows;
+  };
+  EXPECT_NEAR(rows_at(0), rows_at(length), 0.25);
 }
 
 }  // namespace

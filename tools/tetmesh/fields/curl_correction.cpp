@@ -22,6 +22,7 @@
 namespace hexpipe::tetmesh::fields {
 namespace {
 
+constexpr float least_length = 1e-6f;  // of a link whose stiffness grows
 constexpr std::int32_t links_in_block = 2048;
 // So many blocks are summed up at the same time, because each addition waits for the one before it in its block.
 constexpr std::int32_t blocks_at_once = 4;
@@ -43,17 +44,15 @@ class CurlSolver {
     deal_out(bundles);
     correction_.assign(links_.size(), Values<K>::Zero());
     rest_ = image_ = direction_ = correction_;
+    stiffness_.assign(links_.size(), Values<K>::Constant(limits.stiffness));
   }
 
-  std::vector<float> solve() {
-    start();
-    double product = add_products(rest_, rest_, [](std::int64_t, std::int64_t) {});
-    const double enough = limits_.tolerance * limits_.tolerance * product;
-    for (int k = 0; k < limits_.most_iterations && product > enough; ++k) {
-      const auto step = static_cast<float>(product / find_image());
-      const double next = advance(step);
-      turn(static_cast<float>(next / product));
-      product = next;
+  std::vector<float> solve(std::span<const float> lengths) {
+    const double missing = start(), enough = limits_.tolerance * limits_.tolerance * missing;
+    iterate(missing, enough);
+    for (int round = 0; round < limits_.rounds; ++round) {
+      stiffen(lengths);
+      iterate(start(), enough);
     }
     return of_all_links();
   }
@@ -113,13 +112,33 @@ class CurlSolver {
     for (std::int64_t i = values * begin; i < values * end; ++i) body(i);
   }
 
-  // What is missing around loops is the first direction.
-  void start() {
-    for (std::size_t i = 0; i < links_.size(); ++i)
-      for (std::size_t k = 0; k < K; ++k) direction_[i][k] = distances_[K * static_cast<std::size_t>(links_[i]) + k];
+  // What is missing around loops, with the corrections so far, is the first direction. Returns its squared norm.
+  double start() {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      direction_[i] = correction_[i];
+      for (std::size_t k = 0; k < K; ++k) direction_[i][k] += distances_[K * static_cast<std::size_t>(links_[i]) + k];
+      rest_[i] = -stiffness_[i] * correction_[i];
+    }
     parallel_for(static_cast<std::int64_t>(parts_.size()), 1,
                  [&](std::int64_t i) { parts_[i].template add_sums<true>(crossings_, direction_, rest_); });
     turn(0);
+    return add_products(rest_, rest_, [](std::int64_t, std::int64_t) {});
+  }
+  // Goes on from a squared norm of the rest until it is small enough.
+  void iterate(double product, double enough) {
+    for (int k = 0; k < limits_.most_iterations && product > enough; ++k) {
+      const auto step = static_cast<float>(product / find_image());
+      const double next = advance(step);
+      turn(static_cast<float>(next / product));
+      product = next;
+    }
+  }
+  void stiffen(std::span<const float> lengths) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const float length = std::max(lengths[static_cast<std::size_t>(links_[i])], least_length);
+      const float soft = static_cast<float>(limits_.soft_strain) * length;
+      stiffness_[i] = limits_.stiffness * (correction_[i].abs() / soft).max(1.0f);
+    }
   }
   // Returns the product of the direction and its image.
   double find_image() {
@@ -153,9 +172,9 @@ class CurlSolver {
   void turn(float onward) {
     change_all([&](std::int64_t begin, std::int64_t end) {
       float *direction = direction_.data()->data(), *image = image_.data()->data();
-      const float* rest = rest_.data()->data();
+      const float *rest = rest_.data()->data(), *stiffness = stiffness_.data()->data();
       for_each_value(begin, end, [&](std::int64_t i) { direction[i] = rest[i] + onward * direction[i]; });
-      for_each_value(begin, end, [&](std::int64_t i) { image[i] = limits_.stiffness * direction[i]; });
+      for_each_value(begin, end, [&](std::int64_t i) { image[i] = stiffness[i] * direction[i]; });
     });
   }
   std::vector<float> of_all_links() const {
@@ -172,7 +191,7 @@ class CurlSolver {
   Crossings<K> crossings_;
   std::vector<std::int32_t> links_;    // those that loops lead along, ascending
   std::vector<LoopsOfPart<K>> parts_;  // one after the other
-  ValuesOfAll<K> correction_, rest_, image_, direction_;
+  ValuesOfAll<K> correction_, rest_, image_, direction_, stiffness_;
 };
 
 // The others have no numbers here.
@@ -223,12 +242,16 @@ void CurlSolver<K>::deal_out(const Bundles<K>& bundles) {
 }  // namespace
 
 template <std::size_t K>
-std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops, const CurlLimits& limits) {
-  return CurlSolver<K>(distances, loops, limits).solve();
+std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops, const CurlLimits& limits,
+                                   std::span<const float> lengths) {
+  return CurlSolver<K>(distances, loops, limits).solve(lengths);
 }
 
-template std::vector<float> curl_correction<1>(std::span<const float>, const Loops&, const CurlLimits&);
-template std::vector<float> curl_correction<2>(std::span<const float>, const Loops&, const CurlLimits&);
-template std::vector<float> curl_correction<3>(std::span<const float>, const Loops&, const CurlLimits&);
+template std::vector<float> curl_correction<1>(std::span<const float>, const Loops&, const CurlLimits&,
+                                               std::span<const float>);
+template std::vector<float> curl_correction<2>(std::span<const float>, const Loops&, const CurlLimits&,
+                                               std::span<const float>);
+template std::vector<float> curl_correction<3>(std::span<const float>, const Loops&, const CurlLimits&,
+                                               std::span<const float>);
 
 }  // namespace hexpipe::tetmesh::fields

@@ -29,6 +29,8 @@ constexpr double edge_weight = 20, point_weight = 5;
 // How strongly the guide pulls where it is certain; at 20 and 100 there are as many hexes. Where the guide's rows would
 // change the distance between two triangles by more than the second number, in sizes, they do not fit.
 constexpr double guide_weight = 5, most_guide_change = 0.25;
+// Where the nodes that the guide asks agree by less, from 0 to 1, distances stay as they are.
+constexpr double least_agreement = 0.5;
 constexpr fields::DiffusionLimits diffusion_limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small models
 // Both sides of a wall agree again after these.
@@ -190,7 +192,10 @@ class LatticeMaker {
     correct_curl(links_, kept, corrections);
     weigh_links();
     make_anchors(kept);
-    if (guide.coordinates) follow(guide);
+    if (guide.coordinates) {
+      follow(guide);
+      measure_distances();
+    }
     PhaseSolver solver(links_, across_, degrees_, targets_);
     phases_ = solver.diffused(pulls_);
     reach_the_rest();
@@ -289,10 +294,11 @@ void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
   }
 }
 
-// Pulls every triangle to the guide's coordinates.
+// Takes over the guide's coordinates, and pulls every triangle to them.
 void LatticeMaker::follow(const RowGuide& guide) {
   for_each_triangle([&](std::int32_t f) {
     const Phases known = guide.coordinates(surface_.centres[f], surface_.normals[f], directions(f));
+    phases_[f] = known;
     for (std::size_t k = 0; k < 2; ++k) {
       pulls_[f][k] += guide_weight * degrees_[f] * std::abs(known[k]);
       targets_[f][k] += guide_weight * degrees_[f] * known[k];
@@ -307,6 +313,8 @@ void LatticeMaker::measure_distances() {
   links_.change_distances([&](geometry::HalfEdge h, SurfaceLink& link) {
     const std::int32_t f = geometry::triangle_of(h);
     for (std::size_t k = 0; k < 2; ++k) {
+      if (std::min(std::abs(phases_[f][k]), std::abs(phases_[link.neighbour][link.axis[k]])) < least_agreement)
+        continue;
       const double between = coordinates[f][k] + jumps[h][k] - link.seen_along(coordinates[link.neighbour], k);
       if (std::abs(between - link.distance[k]) < most_guide_change) link.distance[k] = between;
     }

@@ -156,6 +156,7 @@ FieldNodes make_field_nodes(const solid::Surface& surface, const TetMesh& mesh, 
   parallel_for(static_cast<std::int64_t>(nodes.size()), 256,
                [&](std::int64_t v) { nodes.sizes[v] = size.at(nodes.points[v]); });
   nodes.surface = SurfaceReader(surface, feature_angle).read();
+  nodes.triangles = surface.triangles;
   nodes.offsets.assign(1, 0);
   for (std::size_t v = 0; v < nodes.points.size(); ++v) {
     for (const Vertex u : adjacency.neighbours_of(static_cast<Vertex>(v))) {

@@ -38,8 +38,9 @@ struct FieldNodes {
   std::vector<Vec3> points;  // the surface's first
   std::vector<double> sizes;
   std::vector<SurfaceNode> surface;
-  std::vector<std::int64_t> offsets;  // points + 1
-  std::vector<FieldLink> links;       // in both directions
+  std::span<const Triangle> triangles;  // of the surface, which must outlive the nodes
+  std::vector<std::int64_t> offsets;    // points + 1
+  std::vector<FieldLink> links;         // in both directions
 
   std::size_t size() const { return points.size(); }
   bool is_on_surface(std::size_t node) const { return node < surface.size(); }
