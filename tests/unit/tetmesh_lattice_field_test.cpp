@@ -48,6 +48,7 @@ struct Bar {
   std::vector<tetmesh::fields::Frame> frames;
 
   // Sizes grow by a quarter from one end to the other.
+  Bar(const Bar&) = delete;
   Bar() {
     const auto is_inside = [](const std::array<std::int32_t, 3>& at) {
       return at[0] > 0 && at[0] < length && at[1] > 0 && at[1] < height && at[2] > 0 && at[2] < height;
@@ -103,7 +104,7 @@ struct Bar {
   }
 };
 
-// By the sizes alone, rows would rise from one end to the other: there are three of them there, and 2.4 here.
+// By the sizes alone, rows would slope: three of them at one end, and 2.4 at the other.
 TEST(LatticeField, HasLayersAlongFaces) {
   const Bar bar;
   const LatticeField field = solve_lattice_field(bar.nodes, bar.frames, std::vector<bool>(bar.nodes.surface.size()));

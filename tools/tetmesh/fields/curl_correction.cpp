@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -22,7 +23,9 @@
 namespace hexpipe::tetmesh::fields {
 namespace {
 
-constexpr float least_length = 1e-6f;  // of a link whose stiffness grows
+// A shorter link does not become stiffer than one of this length, so that the system stays well conditioned.
+constexpr float least_length = 0.1f;
+constexpr double most_scale = 1.2;
 constexpr std::int32_t links_in_block = 2048;
 // So many blocks are summed up at the same time, because each addition waits for the one before it in its block.
 constexpr std::int32_t blocks_at_once = 4;
@@ -52,6 +55,7 @@ class CurlSolver {
     iterate(missing, enough);
     for (int round = 0; round < limits_.rounds; ++round) {
       stiffen(lengths);
+      if (limits_.keeps_scale) rescale();
       iterate(start(), enough);
     }
     return of_all_links();
@@ -112,13 +116,37 @@ class CurlSolver {
     for (std::int64_t i = values * begin; i < values * end; ++i) body(i);
   }
 
+  template <class Body>
+  void for_each_link(Body&& body) {
+    change_all([&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i) body(static_cast<std::size_t>(i));
+    });
+  }
+  Values<K> distances_of(std::size_t i) const {
+    Values<K> distances = Values<K>::Zero();
+    for (std::size_t k = 0; k < K; ++k) distances[k] = distances_[K * static_cast<std::size_t>(links_[i]) + k];
+    return distances;
+  }
+  // Of all distances that add up, those nearest to what is wanted are shorter in the mean, as projections are. So
+  // longer ones are wanted from now on, by as much.
+  void rescale() {
+    double wanted = 0, found = 0;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Values<K> distances = distances_of(i);
+      wanted += (distances * distances).template cast<double>().sum();
+      found += (distances * (scale_ * distances + correction_[i])).template cast<double>().sum();
+    }
+    if (!(found > 0)) return;
+    const auto scale = static_cast<float>(std::clamp(scale_ * wanted / found, 1.0, most_scale));
+    for_each_link([&](std::size_t i) { correction_[i] += (scale_ - scale) * distances_of(i); });
+    scale_ = scale;
+  }
   // What is missing around loops, with the corrections so far, is the first direction. Returns its squared norm.
   double start() {
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      direction_[i] = correction_[i];
-      for (std::size_t k = 0; k < K; ++k) direction_[i][k] += distances_[K * static_cast<std::size_t>(links_[i]) + k];
+    for_each_link([&](std::size_t i) {
+      direction_[i] = scale_ * distances_of(i) + correction_[i];
       rest_[i] = -stiffness_[i] * correction_[i];
-    }
+    });
     parallel_for(static_cast<std::int64_t>(parts_.size()), 1,
                  [&](std::int64_t i) { parts_[i].template add_sums<true>(crossings_, direction_, rest_); });
     turn(0);
@@ -133,12 +161,13 @@ class CurlSolver {
       product = next;
     }
   }
+  // The geometric mean with the stiffness before: without it, every other round would take back what the last one did.
   void stiffen(std::span<const float> lengths) {
-    for (std::size_t i = 0; i < links_.size(); ++i) {
+    for_each_link([&](std::size_t i) {
       const float length = std::max(lengths[static_cast<std::size_t>(links_[i])], least_length);
       const float soft = static_cast<float>(limits_.soft_strain) * length;
-      stiffness_[i] = limits_.stiffness * (correction_[i].abs() / soft).max(1.0f);
-    }
+      stiffness_[i] *= (limits_.stiffness * (correction_[i].abs() / soft).max(1.0f) / stiffness_[i]).sqrt();
+    });
   }
   // Returns the product of the direction and its image.
   double find_image() {
@@ -180,13 +209,16 @@ class CurlSolver {
   std::vector<float> of_all_links() const {
     std::vector<float> corrections(distances_.size());
     for (std::size_t i = 0; i < links_.size(); ++i)
-      for (std::size_t k = 0; k < K; ++k) corrections[K * static_cast<std::size_t>(links_[i]) + k] = correction_[i][k];
+      for (std::size_t k = 0; k < K; ++k)
+        corrections[K * static_cast<std::size_t>(links_[i]) + k] =
+            correction_[i][k] + (scale_ - 1) * distances_[K * static_cast<std::size_t>(links_[i]) + k];
     return corrections;
   }
 
   static constexpr std::int64_t values = Values<K>::RowsAtCompileTime;  // stored of each link
 
   CurlLimits limits_;
+  float scale_ = 1;  // of the distances that are asked for
   std::span<const float> distances_;
   Crossings<K> crossings_;
   std::vector<std::int32_t> links_;    // those that loops lead along, ascending
@@ -244,6 +276,7 @@ void CurlSolver<K>::deal_out(const Bundles<K>& bundles) {
 template <std::size_t K>
 std::vector<float> curl_correction(std::span<const float> distances, const Loops& loops, const CurlLimits& limits,
                                    std::span<const float> lengths) {
+  assert(limits.rounds == 0 || (limits.soft_strain > 0 && lengths.size() * K == distances.size()));
   return CurlSolver<K>(distances, loops, limits).solve(lengths);
 }
 

@@ -29,8 +29,8 @@ constexpr double edge_weight = 20, point_weight = 5;
 // How strongly the guide pulls where it is certain; at 20 and 100 there are as many hexes. Where the guide's rows would
 // change the distance between two triangles by more than the second number, in sizes, they do not fit.
 constexpr double guide_weight = 5, most_guide_change = 0.25;
-// Where the nodes that the guide asks agree by less, from 0 to 1, distances stay as they are.
-constexpr double least_agreement = 0.5;
+// Where the nodes that the guide asks agree by less, from 0 to 1, its coordinates do not change distances.
+constexpr double least_agreement_of_guide = 0.5;
 constexpr fields::DiffusionLimits diffusion_limits{200, 1e-3};
 constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small models
 // Both sides of a wall agree again after these.
@@ -193,8 +193,8 @@ class LatticeMaker {
     weigh_links();
     make_anchors(kept);
     if (guide.coordinates) {
-      follow(guide);
-      measure_distances();
+      const std::vector<Phases> known = follow(guide);
+      measure_distances(known, least_agreement_of_guide);
     }
     PhaseSolver solver(links_, across_, degrees_, targets_);
     phases_ = solver.diffused(pulls_);
@@ -204,7 +204,7 @@ class LatticeMaker {
       join_rows(links_, across_, targets_, row_stretch, phases_);
       PhaseSolver(links_, across_, degrees_, targets_).smooth(phases_, sweeps_after_joining);
     }
-    if (guide.coordinates) measure_distances();
+    if (guide.coordinates) measure_distances(phases_, 0);
     propose();
     fields::agree(
         surface_.centres.front(), [&](const Proposal&) { return greatest_size_; },
@@ -235,8 +235,8 @@ class LatticeMaker {
   void weigh_links();
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
-  void follow(const RowGuide& guide);
-  void measure_distances();
+  std::vector<Phases> follow(const RowGuide& guide);
+  void measure_distances(const std::vector<Phases>& phases, double least_agreement);
   Phases view_of_neighbours(std::int32_t f) const;
   void reach_the_rest();
   Steps steps_of(std::int32_t f) const;
@@ -294,27 +294,28 @@ void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
   }
 }
 
-// Takes over the guide's coordinates, and pulls every triangle to them.
-void LatticeMaker::follow(const RowGuide& guide) {
+// Pulls every triangle to the guide's coordinates, which it returns.
+std::vector<Phases> LatticeMaker::follow(const RowGuide& guide) {
+  std::vector<Phases> known(phases_.size());
   for_each_triangle([&](std::int32_t f) {
-    const Phases known = guide.coordinates(surface_.centres[f], surface_.normals[f], directions(f));
-    phases_[f] = known;
+    known[f] = guide.coordinates(surface_.centres[f], surface_.normals[f], directions(f));
     for (std::size_t k = 0; k < 2; ++k) {
-      pulls_[f][k] += guide_weight * degrees_[f] * std::abs(known[k]);
-      targets_[f][k] += guide_weight * degrees_[f] * known[k];
+      pulls_[f][k] += guide_weight * degrees_[f] * std::abs(known[f][k]);
+      targets_[f][k] += guide_weight * degrees_[f] * known[f][k];
     }
   });
+  return known;
 }
 
-// Distances are what lies between the coordinates, so that steps are those of the guide's rows.
-void LatticeMaker::measure_distances() {
-  const RowCoordinates coordinates = row_coordinates(phases_);
+// Distances are what lies between the coordinates, so that steps are those of the guide's rows. Where the modulus of a
+// number is less than the least agreement, nothing is known.
+void LatticeMaker::measure_distances(const std::vector<Phases>& phases, double least_agreement) {
+  const RowCoordinates coordinates = row_coordinates(phases);
   const RowJumps jumps = row_jumps(links_, coordinates);
   links_.change_distances([&](geometry::HalfEdge h, SurfaceLink& link) {
     const std::int32_t f = geometry::triangle_of(h);
     for (std::size_t k = 0; k < 2; ++k) {
-      if (std::min(std::abs(phases_[f][k]), std::abs(phases_[link.neighbour][link.axis[k]])) < least_agreement)
-        continue;
+      if (std::min(std::abs(phases[f][k]), std::abs(phases[link.neighbour][link.axis[k]])) < least_agreement) continue;
       const double between = coordinates[f][k] + jumps[h][k] - link.seen_along(coordinates[link.neighbour], k);
       if (std::abs(between - link.distance[k]) < most_guide_change) link.distance[k] = between;
     }
