@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "tests/unit/tetmesh_blocks.hpp"
 
 namespace hexpipe {
 using namespace tetmesh;
@@ -19,25 +20,10 @@ std::int32_t number_of(std::int32_t x, std::int32_t y, std::int32_t z) {
 
 TetMesh block() {
   TetMesh mesh;
-  for (std::int32_t z = 0; z <= height; ++z)
-    for (std::int32_t y = 0; y <= width; ++y)
-      for (std::int32_t x = 0; x <= width; ++x)
-        mesh.points.push_back({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
-  for (std::int32_t z = 0; z < height; ++z)
-    for (std::int32_t y = 0; y < width; ++y)
-      for (std::int32_t x = 0; x < width; ++x) {
-        std::array<int, 3> order{0, 1, 2};
-        do {
-          std::array<std::int32_t, 3> at{x, y, z};
-          Tet tet{number_of(x, y, z)};
-          for (std::size_t i = 0; i < 3; ++i) {
-            ++at[static_cast<std::size_t>(order[i])];
-            tet[i + 1] = number_of(at[0], at[1], at[2]);
-          }
-          if (tet_determinant(mesh.points, tet) < 0) std::swap(tet[2], tet[3]);
-          mesh.tets.push_back(tet);
-        } while (std::ranges::next_permutation(order).found);
-      }
+  for (const auto& [x, y, z] : testing::places_up_to({width, width, height}))
+    mesh.points.push_back({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+  testing::fill_with_cubes(
+      {width, width, height}, [](const testing::Place& at) { return number_of(at[0], at[1], at[2]); }, mesh);
   return mesh;
 }
 
@@ -45,7 +31,7 @@ TetMesh block() {
 struct Lattice {
   TetMesh mesh = block();
   TetAdjacency adjacency{mesh, "block"};
-  FieldNodes nodes = nodes_of(mesh, adjacency);
+  FieldNodes nodes = testing::nodes_on(mesh, adjacency);
   std::vector<fields::Frame> frames{nodes.size(), fields::Frame{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   std::vector<std::array<double, 3>> coordinates = std::vector<std::array<double, 3>>(nodes.size());
 
@@ -60,19 +46,6 @@ struct Lattice {
       const double moved = coordinates[i][0] + std::atan2(p.y - y, p.x - x) / (2 * std::numbers::pi);
       coordinates[i][0] = moved - std::round(moved);
     }
-  }
-
- private:
-  static FieldNodes nodes_of(const TetMesh& mesh, const TetAdjacency& adjacency) {
-    FieldNodes nodes;
-    nodes.points = mesh.points;
-    nodes.sizes.assign(mesh.points.size(), 1);
-    nodes.offsets.assign(1, 0);
-    for (Vertex v = 0; v < static_cast<Vertex>(mesh.points.size()); ++v) {
-      for (const Vertex u : adjacency.neighbours_of(v)) nodes.links.push_back({u, 1});
-      nodes.offsets.push_back(static_cast<std::int64_t>(nodes.links.size()));
-    }
-    return nodes;
   }
 };
 

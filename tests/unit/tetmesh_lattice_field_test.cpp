@@ -3,13 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <utility>
 #include <vector>
 
-#include "common/mesh/adjacency.hpp"
+#include "tests/unit/tetmesh_blocks.hpp"
 
 namespace hexpipe {
 using namespace tetmesh::volume;
@@ -40,7 +38,7 @@ TEST(StepsOnSurface, AreNoneInOnePlaneAndNotKnownBetweenNoneAndOne) {
   }
 }
 
-constexpr std::int32_t length = 6, height = 3;  // of a bar of cubes, each of six tets
+constexpr std::int32_t length = 6, height = 3;  // of a bar of cubes
 
 struct Bar {
   TetMesh mesh;
@@ -48,53 +46,33 @@ struct Bar {
   std::vector<tetmesh::fields::Frame> frames;
 
   // Sizes grow by a quarter from one end to the other.
-  Bar(const Bar&) = delete;
   Bar() {
-    const auto is_inside = [](const std::array<std::int32_t, 3>& at) {
-      return at[0] > 0 && at[0] < length && at[1] > 0 && at[1] < height && at[2] > 0 && at[2] < height;
-    };
-    std::vector<std::array<std::int32_t, 3>> places;
-    for (std::int32_t z = 0; z <= height; ++z)
-      for (std::int32_t y = 0; y <= height; ++y)
-        for (std::int32_t x = 0; x <= length; ++x) places.push_back({x, y, z});
-    std::ranges::stable_partition(places, [&](const auto& at) { return !is_inside(at); });
-    std::map<std::array<std::int32_t, 3>, Vertex> number;
-    for (const auto& at : places) {
+    std::vector<testing::Place> places = testing::places_up_to({length, height, height});
+    std::ranges::stable_partition(places, [](const testing::Place& at) { return !is_inside(at); });
+    std::map<testing::Place, Vertex> number;
+    for (const testing::Place& at : places) {
       number[at] = static_cast<Vertex>(mesh.points.size());
       mesh.points.push_back({static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
-      nodes.sizes.push_back(1 + 0.25 * at[0] / length);
     }
-    for (const auto& at : places) {
-      if (at[0] == length || at[1] == height || at[2] == height) continue;
-      std::array<std::size_t, 3> order{0, 1, 2};
-      do {
-        auto corner = at;
-        Tet tet{number[corner]};
-        for (std::size_t i = 0; i < 3; ++i) {
-          ++corner[order[i]];
-          tet[i + 1] = number[corner];
-        }
-        if (tet_determinant(mesh.points, tet) < 0) std::swap(tet[2], tet[3]);
-        mesh.tets.push_back(tet);
-      } while (std::ranges::next_permutation(order).found);
-    }
-    mesh.tet_tags.assign(mesh.tets.size(), 0);
+    testing::fill_with_cubes(
+        {length, height, height}, [&](const testing::Place& at) { return number.at(at); }, mesh);
     const TetAdjacency adjacency(mesh, "bar");
     add_missing_boundary_triangles(mesh, adjacency, 0);
-    nodes.points = mesh.points;
+    nodes = testing::nodes_on(mesh, adjacency);
     nodes.triangles = mesh.triangles;
-    nodes.offsets.assign(1, 0);
-    for (Vertex v = 0; v < static_cast<Vertex>(mesh.points.size()); ++v) {
-      for (const Vertex u : adjacency.neighbours_of(v)) nodes.links.push_back({u, 1});
-      nodes.offsets.push_back(static_cast<std::int64_t>(nodes.links.size()));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      nodes.sizes[i] = 1 + 0.25 * places[i][0] / length;
+      if (!is_inside(places[i])) nodes.surface.push_back(node_at(places[i]));
     }
-    for (const auto& at : places)
-      if (!is_inside(at)) nodes.surface.push_back(node_at(at));
     frames.assign(mesh.points.size(), {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   }
+  Bar(const Bar&) = delete;
 
  private:
-  static SurfaceNode node_at(const std::array<std::int32_t, 3>& at) {
+  static bool is_inside(const testing::Place& at) {
+    return at[0] > 0 && at[0] < length && at[1] > 0 && at[1] < height && at[2] > 0 && at[2] < height;
+  }
+  static SurfaceNode node_at(const testing::Place& at) {
     const auto outwards = [](std::int32_t i, std::int32_t last) { return i == 0 ? -1.0 : i == last ? 1.0 : 0.0; };
     SurfaceNode node;
     node.normal = {outwards(at[0], length), outwards(at[1], height), outwards(at[2], height)};

@@ -26,8 +26,8 @@ constexpr int smoothing_sweeps = 60;
 // Between the first and the second it is not decided.
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
 // The softer, the further from the place of need do rows stretch, which is better where a model is many sizes thick.
-// What counts more beyond 8 % keeps grids at an angle apart, which would be squeezed. In the mean of 14 CAD models
-// hexes are 79.5 % of the cells with 0.01 alone, 79.0 with 0.003 alone, 79.9 with the rounds and 80.5 with the scale
+// What counts more beyond 8 % keeps grids at an angle apart, which would be squeezed. In the mean of 14 models hexes
+// are 79.5 % of the cells with 0.01 alone, 79.0 with 0.003 alone, 79.9 with the rounds and 80.5 with the scale
 // kept.
 constexpr fields::CurlLimits curl_limits{.stiffness = 0.003f,
                                          .most_iterations = 150,
