@@ -135,12 +135,13 @@ PYTHON
 import json
 none, merged = (json.load(open(f)) for f in ("none.json", "vertices.json"))
 gone = merged["merging"]["vertices_gone"]
-assert gone > 10 and none["merging"] == {"vertices_gone": 0, "rooms_filled_anew": 0}, (none["merging"], gone)
+assert gone > 10 and set(none["merging"].values()) == {0}, (none["merging"], gone)
 assert f" {gone} vertices between the hexes merged into others" in " " + open("summary").read()
 assert merged["points"] < none["points"]
 before, after = none["cells"], merged["cells"]
-assert after["hex"]["count"] == before["hex"]["count"]
-# Around a hole of one cube six pyramids stay, which hexes cannot press as thin as tets.
+# A hole of one cube becomes a hex again.
+assert after["hex"]["count"] == before["hex"]["count"] - merged["merging"]["hexes_gone"]
+assert after["hex"]["count"] > before["hex"]["count"]
 assert after["hex"]["share_of_volume"] > before["hex"]["share_of_volume"] - 0.005
 assert after["tet"]["count"] < 0.8 * before["tet"]["count"], (before, after)
 for kind in ("tet", "pyramid"):
@@ -399,7 +400,7 @@ lattice_mesh() {
   $PYTHON "$DATA/lattices/lattice.py" kuhn $1 >lattice.mesh
   findhex --mesh lattice.mesh --min-quality 0.4 --cells hex,prism -o lattice.cand
   findhex --mesh lattice.mesh --min-quality 0.4 --cells hex,prism | buildgraph | initsol --iterations 0 -o full.sol
-  awk 'NR % 3' full.sol >part.sol
+  awk 'NR % 4' full.sol >part.sol
   assemble --mesh lattice.mesh --candidates lattice.cand --solution part.sol --format $2 -o $3
 }
 

@@ -625,7 +625,9 @@ TEST(FewerCells, NothingButTheCellsBetweenHexesChangesInThousandsOfMeshes) {
       const auto found = census.count.find(CellKind::hex);
       return found == census.count.end() ? 0 : found->second;
     };
-    ASSERT_EQ(hexes(after) + opened, hexes(before));
+    // A row that becomes shorter loses hexes, and a room may turn out to be one.
+    ASSERT_EQ(hexes(after) + opened + counts.hexes_gone, hexes(before));
+    ASSERT_TRUE(passes == Passes::merge_and_refill || counts.rows_shortened + counts.hexes_gone == 0);
     changed += counts.any();
   }
   EXPECT_GT(changed, seeds / 2);
@@ -1014,7 +1016,9 @@ TEST(FewerCells, AssembleMergesUnlessToldNotTo) {
   const auto plain = assemble::assemble(lattice.mesh, lattice.cubes, chosen, options);
   EXPECT_GT(merged.statistics.improvement.fewer.merged, 0);
   EXPECT_FALSE(plain.statistics.improvement.fewer.any());
-  EXPECT_EQ(merged.mesh.hexes.size(), plain.mesh.hexes.size());
+  const auto& fewer = merged.statistics.improvement.fewer;
+  EXPECT_EQ(static_cast<std::int64_t>(merged.mesh.hexes.size()) + fewer.hexes_gone,
+            static_cast<std::int64_t>(plain.mesh.hexes.size()));
   EXPECT_LT(merged.mesh.tets.size(), plain.mesh.tets.size());
 }
 

@@ -167,7 +167,8 @@ gap::FewerCells Builder::make_fewer_cells(Attempt& attempt, gap::Passes passes) 
   for (const CellIndex c : fewer.opened) {
     const hybrid::HybridCell& cell = attempt.mesh.cell(c);
     ++counts.given_back[static_cast<std::size_t>(conform::GivenBack::poor_elements)];
-    if (cell.kind == CellKind::hex) counts.volume_given_back += candidates_.volume[cell.candidate];
+    if (cell.kind == CellKind::hex && cell.candidate != no_index)
+      counts.volume_given_back += candidates_.volume[cell.candidate];
   }
   return fewer;
 }

@@ -245,7 +245,10 @@ nlohmann::ordered_json to_json(const AssembleStatistics& statistics) {
                        {"vertices_added_at_flat_tets", statistics.improvement.vertices},
                        {"flat_tets_taken_off", statistics.improvement.peeled}};
   const gap::FewerCells& fewer = statistics.improvement.fewer;
-  json["merging"] = {{"vertices_gone", fewer.merged + fewer.closed}, {"rooms_filled_anew", fewer.refilled}};
+  json["merging"] = {{"vertices_gone", fewer.merged + fewer.closed},
+                     {"rooms_filled_anew", fewer.refilled},
+                     {"rows_shortened", fewer.rows_shortened},
+                     {"hexes_gone", fewer.hexes_gone}};
   json["nonconforming_quads"] = volumes.nonconforming_quads;
   if (statistics.pillow) json["pillow"] = json_of(*statistics.pillow);
   if (statistics.layers) json["layers"] = json_of(*statistics.layers);
@@ -308,6 +311,8 @@ std::vector<std::string> summary_lines(const AssembleStatistics& statistics) {
     lines.push_back(
         fmt::format("{} vertices between the hexes merged into others, {} rooms there filled with better cells",
                     fewer.merged + fewer.closed, fewer.refilled));
+  if (const gap::FewerCells& fewer = statistics.improvement.fewer; fewer.rows_shortened > 0)
+    lines.push_back(fmt::format("{} rows of hexes that end inside shortened by one hex", fewer.rows_shortened));
   if (!statistics.poor.empty())
     lines.push_back(fmt::format("{} poor cells are left (hexes below 0.1, others below 0.02); --stats lists them",
                                 statistics.poor.size()));

@@ -118,7 +118,7 @@ bool GapCloser::carry_out(const VertexMerge& merge, std::span<const GapIndex> ou
   const bool moves = merge.is_fixed || gap_.is_inside(merge.into);
   if (moves) moving.push_back(merge.into);
   sort_unique(moving);
-  const Replacement replacement{out, in, worth_of(gap_, out).floor, merge};
+  const Replacement replacement{out, in, worth_of(gap_, out).floor, std::span(&merge, 1)};
   patch_.take(moving, replacement);
   if (moves) patch_.place(merge.into, merge.at);
   patch_.raise(goal, rounds_of_closing);

@@ -21,7 +21,7 @@ FewerCells merge(GapMesh& gap, const Surface& surface) {
 }
 
 // Rooms are small: their search gains most after the quick merges, and opens the way to more of these.
-FewerCells merge_and_refill(GapMesh& gap, const Surface& surface) {
+FewerCells merge_and_refill(GapMesh& gap, const Surface& surface, bool chosen_may_go) {
   FewerCells counts = merge(gap, surface);
   counts.merged += merge_stars(gap);
   const RefillCounts refilled = refill_rooms(gap);
@@ -29,7 +29,12 @@ FewerCells merge_and_refill(GapMesh& gap, const Surface& surface) {
   counts.refilled = refilled.edges + refilled.poor;
   std::vector<std::uint32_t> ages = ages_of_vertices(gap);
   counts.closed = close_gaps(gap, surface.tags, surface.input);
-  if (counts.closed == 0) return counts;
+  const ShortenCounts shortened = shorten_rows(gap, surface.tags, surface.input, chosen_may_go);
+  counts.closed += shortened.vertices;
+  counts.refilled += shortened.rooms;
+  counts.rows_shortened = shortened.rows;
+  counts.hexes_gone = shortened.hexes;
+  if (counts.closed + shortened.rooms == 0) return counts;
   const RefillCounts again = refill_rooms_since(gap, std::move(ages));
   counts.merged += again.vertices;
   counts.refilled += again.edges + again.poor;
@@ -67,10 +72,10 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
       counts = merge(gap, surface);
       break;
     case Passes::merge_and_refill:
-      counts = merge_and_refill(gap, surface);
+      // The pieces of a mesh would have to agree on chosen cells that go.
+      counts = merge_and_refill(gap, surface, is_shared.empty());
       break;
     case Passes::mend:
-      // The pieces of a mesh would have to agree on chosen cells that go.
       counts = mend_and_grow(gap, [&](GapMesh& poor) { return mend(poor, is_shared.empty()); });
       break;
     case Passes::mend_refused:

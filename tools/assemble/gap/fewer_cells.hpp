@@ -12,18 +12,21 @@
 namespace hexpipe::assemble::gap {
 
 struct FewerCells {
-  std::int64_t merged = 0;        // vertices that no hex uses, into others
-  std::int64_t on_surface = 0;    // of these, along the surface
-  std::int64_t closed = 0;        // vertices of chosen cells, across the gap between them
-  std::int64_t refilled = 0;      // rooms
-  std::int64_t mended = 0;        // cells, in the last pass
-  std::int64_t grown = 0;         // moves out of hexes, in the last pass
-  std::vector<CellIndex> opened;  // chosen cells that are gone
+  std::int64_t merged = 0;          // vertices that no hex uses, into others
+  std::int64_t on_surface = 0;      // of these, along the surface
+  std::int64_t closed = 0;          // vertices of chosen cells, across the gap between them
+  std::int64_t refilled = 0;        // rooms
+  std::int64_t rows_shortened = 0;  // by one hex, over the whole column of prisms at which they end
+  std::int64_t hexes_gone = 0;      // for rows, rooms and gaps, less those that came
+  std::int64_t mended = 0;          // cells, in the last pass
+  std::int64_t grown = 0;           // moves out of hexes, in the last pass
+  std::vector<CellIndex> opened;    // chosen cells that are gone
 
   bool any() const { return merged + closed + refilled + mended + grown > 0 || !opened.empty(); }
   FewerCells& operator+=(const FewerCells& more) {
     merged += more.merged, on_surface += more.on_surface, closed += more.closed;
-    refilled += more.refilled, mended += more.mended, grown += more.grown;
+    refilled += more.refilled, rows_shortened += more.rows_shortened, hexes_gone += more.hexes_gone;
+    mended += more.mended, grown += more.grown;
     opened.insert(opened.end(), more.opened.begin(), more.opened.end());
     return *this;
   }
@@ -44,8 +47,8 @@ enum class Passes {
 };
 
 // Lowers the objective (objective.hpp). The mesh has to conform; nothing is done if a tet, or a cell made of tets, is
-// not valid. Chosen cells stay, except those `opened`; shared vertices stay where they are, and vertices on tagged
-// facets stay on them.
+// not valid. Chosen cells stay, except those `opened` and those that rows, rooms and gaps take (shorten_rows()); shared
+// vertices stay where they are, and vertices on tagged facets stay on them.
 FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, std::span<const std::uint8_t> is_shared,
                             Passes passes);
 

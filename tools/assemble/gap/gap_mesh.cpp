@@ -66,7 +66,7 @@ GapMesh::GapMesh(hybrid::HybridMesh& mesh, const hybrid::SurfaceTags& tags, std:
     const hybrid::HybridCell& cell = mesh.cell(c);
     if (!cell.alive) continue;
     const std::span corners = std::span(cell.corners).first(static_cast<std::size_t>(corner_count(cell.kind)));
-    if (cell.candidate == no_index) {
+    if (cell.candidate == no_index && cell.kind != CellKind::hex) {
       std::array<Vertex, 6> own{};
       std::ranges::copy(corners, own.begin());
       add(cell_of(cell.kind, own, cell.region, mesh.points), c);
@@ -167,10 +167,7 @@ bool GapMesh::has_partner(KeptIndex kept, int i) const {
 void GapMesh::set_alive(KeptIndex kept, bool is_alive) {
   kept_[kept].is_alive = is_alive;
   for (const Vertex v : kept_[kept].vertices()) {
-    if (kept_at(v).empty())
-      holds_[v] &= static_cast<std::uint8_t>(~of_kept);
-    else
-      holds_[v] |= of_kept;
+    hold_if_kept(v);
     ++age_[v];
   }
 }
@@ -187,7 +184,26 @@ void GapMesh::merge_kept(Vertex from, Vertex into) {
   ++age_[into];
   kept_at_[from].clear();
   holds_[from] = 0;
-  holds_[into] |= of_kept;
+  hold_if_kept(into);
+}
+
+void GapMesh::add_kept(const KeptCell& cell) {
+  const KeptIndex k(kept_.size());
+  kept_.push_back(cell);
+  kept_[k].has_changed = true;
+  if (!kept_centres_.empty()) kept_centres_.emplace_back();
+  for (const Vertex v : cell.vertices()) {
+    kept_at_[v].push_back(k);
+    holds_[v] |= of_kept;
+    ++age_[v];
+  }
+}
+
+void GapMesh::hold_if_kept(Vertex v) {
+  if (kept_at(v).empty())
+    holds_[v] &= static_cast<std::uint8_t>(~of_kept);
+  else
+    holds_[v] |= of_kept;
 }
 
 Vertex GapMesh::add_vertex(const Vec3& at) {
@@ -228,7 +244,8 @@ std::vector<Vertex> GapMesh::inner_vertices_around(GapIndex c) const {
 
 void GapMesh::write_back() {
   for (const KeptCell& cell : kept_)
-    if ((!cell.is_alive || cell.has_changed) && mesh_.cell(cell.source).alive) mesh_.remove_cell(cell.source);
+    if ((!cell.is_alive || cell.has_changed) && cell.source != no_index && mesh_.cell(cell.source).alive)
+      mesh_.remove_cell(cell.source);
   for (const auto c : indices<GapIndex>(cells_.size())) {
     if (alive_[c] != 0 || source_[c] == no_index) continue;
     if (cells_[c].kind == CellKind::tet)
@@ -239,9 +256,12 @@ void GapMesh::write_back() {
   }
   for (KeptCell& cell : kept_) {
     if (!cell.is_alive || !cell.has_changed) continue;
-    hybrid::HybridCell changed = mesh_.cell(cell.source);
+    hybrid::HybridCell changed;
+    if (cell.source != no_index) changed = mesh_.cell(cell.source);
     changed.alive = true;
+    changed.kind = cell.kind;
     changed.corners = cell.corners;
+    changed.region = cell.region;
     cell.source = mesh_.add_cell(changed);
     cell.has_changed = false;
   }

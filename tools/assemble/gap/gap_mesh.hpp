@@ -32,14 +32,14 @@ struct GapCell {
   int count_common(const GapCell& other) const;  // vertices that both have; three or more are a facet
 };
 
-// A cell that was chosen: it stays, though vertices of it may move; only open_hexes() takes some away.
+// A cell that was chosen: it stays, though vertices of it may move; only open_hexes() and reshape.hpp take some away.
 struct KeptCell {
   CellKind kind = CellKind::hex;
   std::array<Vertex, 8> corners{};
-  CellIndex source = no_index;
+  CellIndex source = no_index;  // its cell in the mesh, or no_index for a new one
   std::int32_t region = 0;
   bool is_alive = true;
-  bool has_changed = false;  // has a vertex that it does not have in the mesh
+  bool has_changed = false;  // is new, or has a vertex that it does not have in the mesh
 
   std::span<const Vertex> vertices() const {
     return std::span(corners).first(static_cast<std::size_t>(corner_count(kind)));
@@ -128,9 +128,12 @@ class GapMesh {
   void undo_replace(std::span<const GapIndex> out, GapIndex first_new);
   // Takes a chosen cell away, or puts it back. The caller fills its room.
   void set_alive(KeptIndex kept, bool is_alive);
-  // The chosen cells at `from` get the vertex `into` in its place; none has both. boundary_triangles() and
-  // has_partner() know of it after write_back().
+  // The chosen cells at `from` get the vertex `into` in its place; none that is alive has both. boundary_triangles()
+  // and has_partner() know of it after write_back().
   void merge_kept(Vertex from, Vertex into);
+  // A hex of vertices that were there from the beginning, which counts as chosen from now on. boundary_triangles() and
+  // has_partner() know it after write_back().
+  void add_kept(const KeptCell& cell);
   Vertex add_vertex(const Vec3& at);
   // The caller has to replace() all cells at v afterwards.
   void move(Vertex v, const Vec3& to) { mesh_.points[v] = to; }
@@ -147,6 +150,7 @@ class GapMesh {
   void add(const GapCell& cell, std::int32_t source);
   void link(GapIndex c);
   void unlink(GapIndex c);
+  void hold_if_kept(Vertex v);
   std::span<const KeptIndex> kept_at_of(Vertex v) const {
     if (static_cast<std::size_t>(v) >= first_new_) return {};
     return kept_at_[v];

@@ -21,6 +21,7 @@
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
 #include "tools/assemble/gap/skin.hpp"
+#include "tools/assemble/gap/surface_merger.hpp"
 #include "tools/assemble/shape/nearest_points.hpp"
 
 namespace hexpipe::assemble::gap {
@@ -40,67 +41,6 @@ constexpr double least_sine = 0.1;
 constexpr int most_surface_passes = 4;
 // The sine of the angle between a move and a facet that it does not leave.
 constexpr double along_surface = 1e-6;
-
-// The tagged triangles around a vertex, each with it first, in the order in which they follow each other.
-struct Fan {
-  std::vector<Triangle> triangles;
-  std::vector<TaggedTriangle> places;
-};
-
-class SurfaceMerger {
- public:
-  SurfaceMerger(GapMesh& gap, hybrid::SurfaceTags& tags, const InputSurface& surface)
-      : gap_(gap), tags_(tags), surface_(surface), triangles_at_(gap.vertex_count()), gone_at_(gap.vertex_count()) {
-    for (const auto i : indices<TaggedTriangle>(tags.size()))
-      if (tags.find(tags.triangle(i)) == i)
-        for (const Vertex v : tags.triangle(i)) triangles_at_[v].push_back(i);
-    for (const auto& [from, into] : tags.merges()) move_gone(from, into);
-  }
-
-  std::int64_t close_gaps();
-
-  std::int64_t run() {
-    std::int64_t merged = 0, before = -1;
-    for (int pass = 0; pass < most_surface_passes && merged > before; ++pass) {
-      before = merged;
-      for (Vertex v = 0; v < static_cast<Vertex>(gap_.vertex_count()); ++v)
-        if (may_leave(v)) merged += merge(v) ? 1 : 0;
-    }
-    return merged;
-  }
-
- private:
-  struct Change {
-    double gain = least_gain;
-    Vertex into = no_index;
-    std::vector<GapCell> in;
-  };
-
-  void move_gone(Vertex from, Vertex into);
-  bool may_leave(Vertex v) const;
-  std::optional<Fan> fan_of(Vertex v) const;
-  std::vector<Vertex> goals_of(Vertex v, const Fan& fan) const;
-  bool keeps_surface(Vertex into, const Fan& fan) const;
-  bool keeps_shape(Vertex from, Vertex into, const Fan& fan) const;
-  bool stays_near(Vertex from, Vertex into, const Fan& fan) const;
-  bool is_in_quad(Vertex into, const Triangle& triangle) const;
-  bool is_boundary_edge(Vertex into, Vertex other) const;
-  void look_at(Vertex from, Vertex into, Change& best) const;
-  std::vector<Tet> between(Vertex from, Vertex into, const Fan& fan) const;
-  bool merge(Vertex from);
-  void append_halves(const KeptCell& cell, const Triangle& tagged, std::vector<Facet>& sides) const;
-  bool may_close(Vertex from, Vertex into, const Fan& fan, double part) const;
-  bool close_on_surface(Vertex a, Vertex b);
-  bool close(Vertex a, Vertex b);
-  void finish(Vertex from, Vertex into, const Fan& fan, const std::vector<Tet>& between);
-
-  GapMesh& gap_;
-  GapCloser closer_{gap_};
-  hybrid::SurfaceTags& tags_;
-  const InputSurface& surface_;
-  std::vector<std::vector<TaggedTriangle>> triangles_at_;
-  std::vector<std::vector<Vec3>> gone_at_;  // by vertex: where vertices were that have merged into it
-};
 
 Vec3 normal_of(std::span<const Vec3> points, const Triangle& t) {
   const Vec3 normal = cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
@@ -124,6 +64,26 @@ bool has(const Triangle& triangle, Vertex v) {
 
 Triangle with_first(const Triangle& triangle, Vertex into) {
   return {into, triangle[1], triangle[2]};
+}
+
+}  // namespace
+
+SurfaceMerger::SurfaceMerger(GapMesh& gap, hybrid::SurfaceTags& tags, const InputSurface& surface)
+    : gap_(gap), tags_(tags), surface_(surface), triangles_at_(gap.vertex_count()), gone_at_(gap.vertex_count()) {
+  for (const auto i : indices<TaggedTriangle>(tags.size()))
+    if (tags.find(tags.triangle(i)) == i)
+      for (const Vertex v : tags.triangle(i)) triangles_at_[v].push_back(i);
+  for (const auto& [from, into] : tags.merges()) move_gone(from, into);
+}
+
+std::int64_t SurfaceMerger::run() {
+  std::int64_t merged = 0, before = -1;
+  for (int pass = 0; pass < most_surface_passes && merged > before; ++pass) {
+    before = merged;
+    for (Vertex v = 0; v < static_cast<Vertex>(gap_.vertex_count()); ++v)
+      if (may_leave(v)) merged += merge(v) ? 1 : 0;
+  }
+  return merged;
 }
 
 void SurfaceMerger::move_gone(Vertex from, Vertex into) {
@@ -184,14 +144,14 @@ std::vector<Vertex> SurfaceMerger::goals_of(Vertex v, const Fan& fan) const {
   return on_curve.size() == 2 ? on_curve : std::vector<Vertex>{};
 }
 
-// Whether the triangle is half of a quad of some cell at `into`.
-bool SurfaceMerger::is_in_quad(Vertex into, const Triangle& triangle) const {
+// Whether the triangle is half of a quad of some cell at `into`. Cells at both lose their quads there.
+bool SurfaceMerger::is_in_quad(Vertex from, Vertex into, const Triangle& triangle) const {
   auto holds = [&](std::span<const Vertex> corners) {
     return std::ranges::all_of(triangle, [&](Vertex v) { return std::ranges::find(corners, v) != corners.end(); });
   };
   bool found = false;
   auto look = [&](CellKind kind, std::span<const Vertex> corners) {
-    if (!holds(corners)) return;
+    if (!holds(corners) || std::ranges::find(corners, from) != corners.end()) return;
     with_topology(kind, [&](auto topology) {
       for (const auto& quad : decltype(topology)::quads) {
         std::array<Vertex, 4> own{};
@@ -211,14 +171,14 @@ bool SurfaceMerger::is_boundary_edge(Vertex into, Vertex other) const {
 }
 
 // No facet or edge is there already, and none is part of a quad.
-bool SurfaceMerger::keeps_surface(Vertex into, const Fan& fan) const {
+bool SurfaceMerger::keeps_surface(Vertex from, Vertex into, const Fan& fan) const {
   std::vector<Vertex> beside;  // what shares a triangle with both
   for (const Triangle& t : fan.triangles)
     if (has(t, into)) beside.insert(beside.end(), t.begin(), t.end());
   for (const Triangle& t : fan.triangles) {
     if (has(t, into)) continue;
     const Triangle moved = with_first(t, into);
-    if (tags_.contains(moved) || is_in_quad(into, moved)) return false;
+    if (tags_.contains(moved) || is_in_quad(from, into, moved)) return false;
     for (const Vertex v : {t[1], t[2]})
       if (std::ranges::find(beside, v) == beside.end() && is_boundary_edge(into, v)) return false;
   }
@@ -295,13 +255,13 @@ void SurfaceMerger::look_at(Vertex from, Vertex into, Change& best) const {
     best = {now.cost - cost, into, std::move(in)};
 }
 
-// Appends the tagged triangle as the chosen cell has it: as half of a quad on the surface, or as a facet.
-void SurfaceMerger::append_halves(const KeptCell& cell, const Triangle& tagged, std::vector<Facet>& sides) const {
+// Appends the tagged triangle as the cell has it: as half of a quad on the surface, or as a facet.
+void SurfaceMerger::append_halves(CellKind kind, std::span<const Vertex> c, const Triangle& tagged,
+                                  std::vector<Facet>& sides) const {
   const auto look = [&](const Triangle& own) {
     if (std::ranges::is_permutation(own, tagged)) sides.push_back(Facet::of(own));
   };
-  const auto& c = cell.corners;
-  with_topology(cell.kind, [&](auto topology) {
+  with_topology(kind, [&](auto topology) {
     for (const auto& t : decltype(topology)::triangles) look({c[t[0]], c[t[1]], c[t[2]]});
     for (const auto& q : decltype(topology)::quads)
       for (const int diagonal : {0, 1}) {
@@ -318,11 +278,9 @@ std::vector<Tet> SurfaceMerger::between(Vertex from, Vertex into, const Fan& fan
   for (const Triangle& t : fan.triangles) {
     if (has(t, into)) continue;
     std::vector<Facet> sides;
-    for (const GapIndex c : gap_.cells_at(from))
-      for_facets(gap_.cell(c).kind, gap_.cell(c).vertices(), [&](const Facet& facet) {
-        if (!facet.is_quad() && std::ranges::is_permutation(facet.vertices(), t)) sides.push_back(facet);
-      });
-    for (const KeptIndex k : gap_.kept_at(from)) append_halves(gap_.kept_cell(k), t, sides);
+    for (const GapIndex c : gap_.cells_at(from)) append_halves(gap_.cell(c).kind, gap_.cell(c).vertices(), t, sides);
+    for (const KeptIndex k : gap_.kept_at(from))
+      append_halves(gap_.kept_cell(k).kind, gap_.kept_cell(k).vertices(), t, sides);
     if (sides.size() != 1) continue;
     const auto& f = sides.front().corners;
     tets.push_back({f[0], f[2], f[1], into});
@@ -337,20 +295,22 @@ bool SurfaceMerger::merge(Vertex from) {
   for (const Vertex into : goals_of(from, *fan)) {
     Change change = best;
     look_at(from, into, change);
-    if (change.into != into || !keeps_surface(into, *fan) || !keeps_shape(from, into, *fan)) continue;
+    if (change.into != into || !keeps_surface(from, into, *fan) || !keeps_shape(from, into, *fan)) continue;
     if (stays_near(from, into, *fan)) best = std::move(change);
   }
   if (best.into == no_index) return false;
   const auto around = gap_.cells_at(from);
   const std::vector<GapIndex> out(around.begin(), around.end());
   if (cost_of_faces(gap_, best.in, out) > cost_of_faces(gap_, out) + best.gain - least_gain) return false;
-  finish(from, best.into, *fan, between(from, best.into, *fan));
+  finish({{from, best.into}, *fan, between(from, best.into, *fan)});
   gap_.replace(out, best.in);
   return true;
 }
 
-void SurfaceMerger::finish(Vertex from, Vertex into, const Fan& fan, const std::vector<Tet>& between) {
-  tags_.merge(from, into, fan.places, between);
+void SurfaceMerger::finish(const SurfaceMerge& merge) {
+  const Vertex from = merge.vertices.from, into = merge.vertices.into;
+  const Fan& fan = merge.fan;
+  tags_.merge(from, into, fan.places, merge.between);
   for (std::size_t i = 0; i < fan.places.size(); ++i) {
     const TaggedTriangle place = fan.places[i];
     for (const Vertex v : fan.triangles[i])
@@ -380,29 +340,30 @@ bool SurfaceMerger::may_close(Vertex from, Vertex into, const Fan& fan, double p
     }
   }
   gap_.move(into, before + shift);
-  const bool keeps = keeps_surface(into, fan) && keeps_shape(from, into, fan) && stays_near(from, into, fan);
+  const bool keeps = keeps_surface(from, into, fan) && keeps_shape(from, into, fan) && stays_near(from, into, fan);
   gap_.move(into, before);
   return keeps;
 }
 
-// The place of b, or of a, in the other's stead; in the middle where that leaves the surface as it is.
+std::optional<SurfaceMerge> SurfaceMerger::merge_of(Vertex from, Vertex into, double part) const {
+  const auto place = surface_.place(from);
+  if (place != InputSurface::Place::face && place != InputSurface::Place::curve) return std::nullopt;
+  if (triangles_at_[from].empty()) return std::nullopt;
+  auto fan = fan_of(from);
+  if (!fan) return std::nullopt;
+  const auto goals = goals_of(from, *fan);
+  if (std::ranges::find(goals, into) == goals.end() || !may_close(from, into, *fan, part)) return std::nullopt;
+  std::vector<Tet> taken_off = between(from, into, *fan);
+  const Vec3 before = gap_.points()[into];
+  return SurfaceMerge{
+      {from, into, before + (gap_.points()[from] - before) * part, part > 0}, std::move(*fan), std::move(taken_off)};
+}
+
 bool SurfaceMerger::close_on_surface(Vertex a, Vertex b) {
-  for (const double part : {0.5, 0.0})
-    for (const auto& [from, into] : {std::array{a, b}, std::array{b, a}}) {
-      const auto place = surface_.place(from);
-      if (place != InputSurface::Place::face && place != InputSurface::Place::curve) continue;
-      if (triangles_at_[from].empty() || !closer_.may_close(from, into)) continue;
-      const auto fan = fan_of(from);
-      if (!fan) continue;
-      const auto goals = goals_of(from, *fan);
-      if (std::ranges::find(goals, into) == goals.end() || !may_close(from, into, *fan, part)) continue;
-      const std::vector<Tet> taken_off = between(from, into, *fan);
-      const Vec3 before = gap_.points()[into];
-      if (!closer_.close({from, into, before + (gap_.points()[from] - before) * part, part > 0})) return false;
-      finish(from, into, *fan, taken_off);
-      return true;
-    }
-  return false;
+  const auto merge = merge_of(a, b, [&](Vertex from, Vertex into) { return closer_.may_close(from, into); });
+  if (!merge || !closer_.close(merge->vertices)) return false;
+  finish(*merge);
+  return true;
 }
 
 // A vertex on the surface stays where it is if the other one is inside.
@@ -415,31 +376,32 @@ bool SurfaceMerger::close(Vertex a, Vertex b) {
   return closer_.close({from, into, gap_.is_inside(into) ? (gap_.points()[from] + before) * 0.5 : before});
 }
 
-// The shortest edges first.
-std::int64_t SurfaceMerger::close_gaps() {
+std::vector<std::array<Vertex, 2>> edges_across_gap(const GapMesh& gap) {
   std::vector<std::array<Vertex, 2>> edges;
-  for (const auto c : indices<GapIndex>(gap_.cell_count())) {
-    if (!gap_.is_alive(c)) continue;
-    const GapCell& cell = gap_.cell(c);
+  for (const auto c : indices<GapIndex>(gap.cell_count())) {
+    if (!gap.is_alive(c)) continue;
+    const GapCell& cell = gap.cell(c);
     with_topology(cell.kind, [&](auto topology) {
       for (const auto& [i, k] : decltype(topology)::edges) {
         const Vertex a = cell.corners[i % 6], b = cell.corners[k % 6];
-        if (gap_.is_of_kept(a) && gap_.is_of_kept(b)) edges.push_back({std::min(a, b), std::max(a, b)});
+        if (gap.is_of_kept(a) && gap.is_of_kept(b)) edges.push_back({std::min(a, b), std::max(a, b)});
       }
     });
   }
   sort_unique(edges);
-  const auto points = gap_.points();
+  const auto points = gap.points();
   std::ranges::stable_sort(edges, {}, [&](const auto& edge) { return norm(points[edge[0]] - points[edge[1]]); });
+  return edges;
+}
+
+std::int64_t SurfaceMerger::close_gaps() {
   std::int64_t closed = 0;
-  for (const auto& [a, b] : edges) {
+  for (const auto& [a, b] : edges_across_gap(gap_)) {
     const auto has_other = [&, other = b](GapIndex c) { return gap_.cell(c).has(other); };
     if (std::ranges::any_of(gap_.cells_at(a), has_other)) closed += close(a, b) ? 1 : 0;
   }
   return closed;
 }
-
-}  // namespace
 
 std::int64_t merge_on_surface(GapMesh& gap, hybrid::SurfaceTags& tags, const InputSurface& surface) {
   return SurfaceMerger(gap, tags, surface).run();

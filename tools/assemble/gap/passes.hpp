@@ -32,6 +32,20 @@ std::int64_t merge_stars(GapMesh& gap, bool neighbours_yield = false);
 // in the middle of the two where that leaves the surface as it is. Returns the number of vertices that are gone.
 std::int64_t close_gaps(GapMesh& gap, hybrid::SurfaceTags& tags, const shape::InputSurface& surface);
 
+struct ShortenCounts {
+  std::int64_t rows = 0;      // that are one hex shorter, over the whole column of prisms at which they end
+  std::int64_t pairs = 0;     // vertices of chosen cells that became one across the gap
+  std::int64_t rooms = 0;     // filled anew
+  std::int64_t vertices = 0;  // gone
+  std::int64_t hexes = 0;     // gone, less those that came
+};
+
+// Shortens rows of hexes that end inside where that leaves fewer cells between the hexes, fills rooms of any size anew,
+// and closes gaps across such rooms (reshape.hpp). Chosen cells may go, become prisms or come. Without `chosen_may_go`
+// rooms alone are filled.
+ShortenCounts shorten_rows(GapMesh& gap, hybrid::SurfaceTags& tags, const shape::InputSurface& surface,
+                           bool chosen_may_go = true);
+
 struct RefillCounts {
   std::int64_t vertices = 0;  // gone, because the room of the cells around them was filled anew
   std::int64_t edges = 0;     // whose cells' room was filled anew

@@ -48,9 +48,8 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
     before_.insert(before_.end(), gap_.cells_at(v).begin(), gap_.cells_at(v).end());
     for (const KeptIndex c : gap_.kept_at(v)) kept_.push_back(c);
   }
-  const VertexMerge& merge = replacement.merge;
-  merges_ = merge.from != no_index;
-  if (merges_)
+  changes_chosen_ = !replacement.merges.empty() || !replacement.come.empty();
+  for (const VertexMerge& merge : replacement.merges)
     for (const Vertex v : {merge.from, merge.into})
       for (const KeptIndex c : gap_.kept_at(v)) kept_.push_back(c);
   sort_unique(before_);
@@ -62,19 +61,24 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
   for (const GapCell& cell : replacement.in)
     add({cell.kind, false, cell.region, replacement.floor, {}}, cell.vertices());
   for (const KeptIndex c : kept_) {
+    if (std::ranges::find(replacement.gone, c) != replacement.gone.end()) continue;
     const KeptCell& cell = gap_.kept_cell(c);
     const double floor = cell.kind == CellKind::hex ? least_hex : least_prism;
     add({cell.kind, true, 0, std::min(floor, quality_of(cell.kind, gap_.points(), cell.vertices())), {}},
         cell.vertices());
-    if (merges_) std::ranges::replace(cells_.back().corners, merge.from, merge.into);
+    for (const VertexMerge& merge : replacement.merges)
+      std::ranges::replace(cells_.back().corners, merge.from, merge.into);
   }
+  for (const KeptCell& cell : replacement.come) add({cell.kind, true, 0, least_hex, {}}, cell.vertices());
   for (const Cell& cell : cells_) vertices_.insert(vertices_.end(), cell.vertices().begin(), cell.vertices().end());
   vertices_.insert(vertices_.end(), moving.begin(), moving.end());
   sort_unique(vertices_);
   points_.clear();
   for (const Vertex v : vertices_) points_.push_back(gap_.points()[v]);
   for (const Vertex v : moving) moving_.push_back(local_of(v));
-  fixed_ = merges_ && merge.is_fixed ? local_of(merge.into) : Local{no_index};
+  fixed_.clear();
+  for (const VertexMerge& merge : replacement.merges)
+    if (merge.is_fixed) fixed_.push_back(local_of(merge.into));
   at_.assign(moving.size(), {});
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     for (Local& v : cells_[c].corners) v = local_of(v);
@@ -108,11 +112,11 @@ void Patch::look_around(std::size_t i) {
 }
 
 bool Patch::improve(std::size_t i, double goal, double rise) {
-  if (moving_[i] == fixed_) return false;
+  if (std::ranges::find(fixed_, moving_[i]) != fixed_.end()) return false;
   // Chosen cells are better: most vertices need no look at all of theirs.
   const bool is_good_here = std::ranges::all_of(at_[i], [&](std::size_t c) {
     const Cell& cell = cells_[c];
-    if (cell.is_kept) return !merges_ || quality(cell) >= cell.floor;
+    if (cell.is_kept) return !changes_chosen_ || quality(cell) >= cell.floor;
     return quality(cell) >= goal;
   });
   if (is_good_here) return false;
@@ -140,7 +144,8 @@ void Patch::raise(double goal, int rounds) {
     bool any = false;
     for (std::size_t i = 0; i < moving_.size(); ++i) any = improve(i, goal, least_rise) || any;
     const double now = least();
-    if (!any || (now >= goal && (!merges_ || keeps_floors())) || (round > 0 && now < before + least_rise)) return;
+    if (!any || (now >= goal && (!changes_chosen_ || keeps_floors())) || (round > 0 && now < before + least_rise))
+      return;
     before = now;
   }
 }
@@ -177,6 +182,16 @@ double Patch::least() const {
   for (const Cell& cell : cells_)
     if (!cell.is_kept) least = std::min(least, quality(cell));
   return least;
+}
+
+double Patch::shortest_edge() const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Cell& cell : cells_)
+    with_topology(cell.kind, [&](auto topology) {
+      for (const auto& [a, b] : decltype(topology)::edges)
+        shortest = std::min(shortest, norm(points_[cell.corners[b]] - points_[cell.corners[a]]));
+    });
+  return shortest;
 }
 
 bool Patch::keeps_floors() const {
@@ -229,7 +244,9 @@ bool Patch::costs_at_most(double most) {
 
 void Patch::carry_out(GapMesh& gap, const Replacement& replacement) const {
   gap.replace(replacement.out, replacement.in);
-  if (merges_) gap.merge_kept(replacement.merge.from, replacement.merge.into);
+  for (const KeptIndex c : replacement.gone) gap.set_alive(c, false);
+  for (const VertexMerge& merge : replacement.merges) gap.merge_kept(merge.from, merge.into);
+  for (const KeptCell& cell : replacement.come) gap.add_kept(cell);
   for (const Local v : moving_) gap.relocate(vertices_[v], points_[v]);
 }
 

@@ -27,8 +27,11 @@ struct Replacement {
   std::span<const GapIndex> out;
   std::span<const GapCell> in;
   double floor = 0;  // the least quality of a cell that may come
-  // All cells of the gap at `merge.from` are among `out`. `merge.into` is among the moving vertices if it moves.
-  VertexMerge merge{};
+  // All cells of the gap at each `from` are among `out`, and chosen cells that have both vertices are among `gone`.
+  // Each `into` is among the moving vertices if it moves.
+  std::span<const VertexMerge> merges{};
+  std::span<const KeptIndex> gone{};  // chosen cells that go
+  std::span<const KeptCell> come{};   // hexes that come, and count as chosen
 };
 
 // A change that raises the worst cell by less is not worth it.
@@ -62,6 +65,8 @@ class Patch {
   double hex_volume() const;
   // The least quality among the cells that are not chosen.
   double least() const;
+  // The length of the shortest edge of all cells.
+  double shortest_edge() const;
   // False if a cell is not valid, or worse than its floor: that of the patch (a chosen hex: least_hex), or less if it
   // was.
   bool keeps_floors() const;
@@ -110,9 +115,9 @@ class Patch {
   std::vector<Vec3> points_;
   std::vector<Cell> cells_;
   std::vector<GapIndex> before_;  // cells of the gap at the moving vertices, before the change
-  Local fixed_ = no_index;        // the one of `moving_` that stays where it was placed, if any
-  bool merges_ = false;           // two vertices of chosen cells
-  std::vector<KeptIndex> kept_;   // chosen cells at the moving vertices
+  std::vector<Local> fixed_;      // those of `moving_` that stay where they were placed
+  bool changes_chosen_ = false;   // so that some of them may be below their floors at first
+  std::vector<KeptIndex> kept_;   // chosen cells at the moving vertices and at those that merge
   std::vector<Local> moving_;
   std::vector<std::vector<std::size_t>> at_;  // by place in moving_: those of `cells_`
   shape::PointStar star_;

@@ -26,7 +26,7 @@ struct Facet {
   }
 };
 
-// Calls visit(facet) for each facet of a cell that has at most six corners.
+// Calls visit(facet) for each facet of a cell.
 template <class Visit>
 void for_facets(CellKind kind, std::span<const Vertex> corners, Visit&& visit) {
   auto each = [&](const auto& facets) {

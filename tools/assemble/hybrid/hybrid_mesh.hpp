@@ -19,7 +19,7 @@ struct HybridCell {
   CellKind kind = CellKind::hex;
   std::array<Vertex, 8> corners{};
   std::int32_t region = 0;
-  CandidateIndex candidate = no_index;  // no_index: a pyramid built for conformity
+  CandidateIndex candidate = no_index;  // no_index: made here, for conformity or in gap/
   bool alive = true;
   // By quad: the diagonal (0 or 1, see triangles_of) that the cell's interior tets have there, and the boundary tet on
   // it that the cell has absorbed, or no_index.
