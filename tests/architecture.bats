@@ -235,3 +235,11 @@ namespace_of() {
   # What skips under the sanitizers would run nowhere.
   grep -nE 'sanitized.*skip' ./*.bats | grep -v assert_none | assert_none "expected the tag 'optimized'"
 }
+
+@test "what the README of the benchmarks says to run can be run" {
+  local command
+  cd "$HEXPIPE_SOURCE"
+  for command in $(grep -oE '`tests/bench/[a-z_/-]+\.(py|sh)' tests/bench/README.md docs/log/*.md | sed 's/.*`//' | sort -u); do
+    [[ -x $command ]] || fail "$command is not there, or nobody may run it"
+  done
+}
