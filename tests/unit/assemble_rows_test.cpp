@@ -41,13 +41,7 @@ std::vector<Facet> facets_of(const Solid& solid) {
 std::vector<Facet> skin_of(std::span<const Solid> solids) {
   std::vector<Facet> skin;
   for (const Solid& solid : solids)
-    for (const Facet& facet : facets_of(solid)) {
-      const auto twin = std::ranges::find(skin, facet.reversed());
-      if (twin == skin.end())
-        skin.push_back(facet);
-      else
-        skin.erase(twin);
-    }
+    for (const Facet& facet : facets_of(solid)) add_facet(facet, skin);
   return skin;
 }
 
@@ -90,13 +84,7 @@ struct EndedRow {
     for (const auto& [at, solid] : cells)
       if (std::ranges::find(gone, at) == gone.end()) chosen.push_back(solid);
     for (const auto& [i, j, k] : gone)
-      for (const Facet& facet : skin_of_cell(i, j, k)) {
-        const auto twin = std::ranges::find(room, facet.reversed());
-        if (twin == room.end())
-          room.push_back(facet);
-        else
-          room.erase(twin);
-      }
+      for (const Facet& facet : skin_of_cell(i, j, k)) add_facet(facet, room);
     if (!room.empty()) add_star();
     smooth();
     add_tets();
@@ -147,12 +135,7 @@ struct EndedRow {
       for (const auto c : quad)
         if (std::ranges::find(left, corners[c]) == left.end()) left.push_back(corners[c]);
       if (left.size() < 3) continue;
-      const Facet facet = Facet::of(left);
-      const auto twin = std::ranges::find(skin, facet.reversed());
-      if (twin == skin.end())
-        skin.push_back(facet);
-      else
-        skin.erase(twin);
+      add_facet(Facet::of(left), skin);
     }
     return skin;
   }
@@ -392,9 +375,7 @@ TEST(ShortenRows, ATaggedFacetInsideStays) {
   EndedRow jog([](int level) { return level <= 3 ? 2 : 3; });
   const Solid& cell = jog.rest.front();
   const auto facets = facets_of(cell);
-  const Facet& inner = *std::ranges::find_if(facets, [&](const Facet& facet) {
-    return std::ranges::find(facet.vertices(), jog.middle) != facet.vertices().end();
-  });
+  const Facet& inner = *std::ranges::find_if(facets, [&](const Facet& facet) { return facet.has(jog.middle); });
   jog.mesh.triangles.push_back({inner.corners[0], inner.corners[1], inner.corners[2]});
   jog.mesh.triangle_tags.push_back(7);
   Shortening scene(jog);

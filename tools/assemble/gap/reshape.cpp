@@ -28,21 +28,6 @@ constexpr int rounds_of_reshaping = 8;
 // tell.
 constexpr double least_part_of_edge = 0.3;
 
-bool has_vertex(std::span<const Vertex> vertices, Vertex v) {
-  return std::ranges::find(vertices, v) != vertices.end();
-}
-
-// Adds a facet to a skin: two sides of one facet vanish. False if the facet is there already.
-bool add_facet(const Facet& facet, std::vector<Facet>& skin) {
-  if (const auto twin = std::ranges::find(skin, facet.reversed()); twin != skin.end()) {
-    skin.erase(twin);
-    return true;
-  }
-  if (std::ranges::find(skin, facet) != skin.end()) return false;
-  skin.push_back(facet);
-  return true;
-}
-
 // Whether the facet, or half of it, is tagged.
 bool is_wall(const GapMesh& gap, const Facet& facet) {
   const auto& [a, b, c, d] = facet.corners;
@@ -88,7 +73,7 @@ class Moved {
 }  // namespace
 
 bool Piece::has(Vertex v) const {
-  return has_vertex(solid.vertices(), v);
+  return std::ranges::find(solid.vertices(), v) != solid.vertices().end();
 }
 
 Piece piece_of(const GapMesh& gap, GapIndex c) {
@@ -137,7 +122,9 @@ std::optional<std::vector<Facet>> Reshaper::mapped_skin(std::span<const Piece> p
     if (corners.size() < 3) return;
     std::vector<Vertex> distinct = corners;
     sort_unique(distinct);
-    suits = suits && distinct.size() == corners.size() && add_facet(Facet::of(corners), skin);
+    const Facet facet_after = Facet::of(corners);
+    suits = suits && distinct.size() == corners.size() && std::ranges::find(skin, facet_after) == skin.end();
+    add_facet(facet_after, skin);
   };
   for (const Piece& piece : pieces) for_facets(piece.solid.kind, piece.solid.vertices(), append);
   return suits ? std::optional(std::move(skin)) : std::nullopt;
@@ -190,13 +177,7 @@ bool Reshaper::has_wall_inside() const {
   std::vector<Facet> skin;
   bool has_wall = false;
   const auto append = [&](const Facet& facet) {
-    const auto twin = std::ranges::find(skin, facet.reversed());
-    if (twin == skin.end()) {
-      skin.push_back(facet);
-      return;
-    }
-    skin.erase(twin);
-    has_wall = has_wall || is_wall(gap_, facet);
+    if (add_facet(facet, skin)) has_wall = has_wall || is_wall(gap_, facet);
   };
   for (const Piece& piece : room_) for_facets(piece.solid.kind, piece.solid.vertices(), append);
   return has_wall;

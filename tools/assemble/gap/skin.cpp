@@ -14,12 +14,7 @@ constexpr double surely_valid = 1e-6;
 
 // Extends a skin by one facet of what joins it: the two sides of a facet between both are gone.
 void join(const GapMesh& gap, const Facet& facet, std::vector<Facet>& skin, Joining& joining) {
-  const auto twin = std::ranges::find(skin, facet.reversed());
-  if (twin == skin.end()) {
-    skin.push_back(facet);
-    return;
-  }
-  skin.erase(twin);
+  if (!add_facet(facet, skin)) return;
   joining.touches = true;
   joining.crosses_tagged = joining.crosses_tagged || is_tagged(gap, facet);
 }
@@ -36,6 +31,16 @@ Facet Facet::of(std::span<const Vertex> corners) {
 Facet Facet::reversed() const {
   if (is_quad()) return {{corners[0], corners[3], corners[2], corners[1]}};
   return {{corners[0], corners[2], corners[1], no_index}};
+}
+
+bool add_facet(const Facet& facet, std::vector<Facet>& skin) {
+  const auto twin = std::ranges::find(skin, facet.reversed());
+  if (twin == skin.end()) {
+    skin.push_back(facet);
+    return false;
+  }
+  skin.erase(twin);
+  return true;
 }
 
 Joining join_skin(const GapMesh& gap, const GapCell& cell, std::vector<Facet>& skin) {

@@ -1,6 +1,7 @@
 #pragma once
 // Rooms: the space that a few cells fill together, and the facets around it.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,7 @@ struct Facet {
   bool is_quad() const { return corners[3] != no_index; }
   std::span<const Vertex> vertices() const { return std::span(corners).first(is_quad() ? 4 : 3); }
   Facet reversed() const;
+  bool has(Vertex v) const { return std::ranges::find(vertices(), v) != vertices().end(); }
   // Most facets differ in their first corner: a call of memcmp for each took a third of the time.
   bool operator==(const Facet& other) const {
     return corners[0] == other.corners[0] && corners[1] == other.corners[1] && corners[2] == other.corners[2] &&
@@ -47,6 +49,9 @@ struct Room {
   std::vector<Vertex> vertices;  // of the skin, ascending
   std::int32_t region = 0;
 };
+
+// Adds a facet to a skin. If the other side of it is there, both are gone: true then.
+bool add_facet(const Facet& facet, std::vector<Facet>& skin);
 
 // How a cell joins others: whether they have a facet in common, and whether such a facet is tagged.
 struct Joining {

@@ -9,10 +9,6 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-bool has(std::span<const Vertex> vertices, Vertex v) {
-  return std::ranges::find(vertices, v) != vertices.end();
-}
-
 // The place of the directed edge from a to b in the facet, or the facet's size.
 std::size_t place_of_edge(const Facet& facet, Vertex a, Vertex b) {
   const auto corners = facet.vertices();
@@ -28,7 +24,7 @@ Vertex beyond(std::span<const Facet> skin, const Facet& base, Vertex v) {
     const auto at = static_cast<std::size_t>(std::ranges::find(corners, v) - corners.begin());
     if (at == corners.size()) continue;
     for (const std::size_t step : {std::size_t{1}, corners.size() - 1})
-      if (const Vertex w = corners[(at + step) % corners.size()]; !has(base.vertices(), w)) return w;
+      if (const Vertex w = corners[(at + step) % corners.size()]; !base.has(w)) return w;
   }
   return no_index;
 }
