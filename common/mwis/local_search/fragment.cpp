@@ -9,7 +9,7 @@ void Fragment::clear() {
   released.clear();
   vertices.clear();
   frontier.clear();
-  whole_component = false;
+  whole_component = is_cut_off = false;
 }
 
 FragmentGrower::FragmentGrower(const ground::SolutionState& state, Random random)
@@ -44,6 +44,7 @@ void FragmentGrower::grow(std::int32_t seed, std::size_t target, std::size_t lim
   while (fragment.vertices.size() < target) {
     if (next == fragment.frontier.size() && !queue_beyond(fragment)) {
       fragment.whole_component = !left_out_;
+      fragment.is_cut_off = left_out_;
       break;
     }
     vary(next, fragment);

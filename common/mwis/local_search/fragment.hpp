@@ -19,6 +19,7 @@ struct Fragment {
   std::vector<std::int32_t> vertices;  // the free vertices, with the released ones
   std::vector<std::int32_t> frontier;  // chosen vertices that would have been released next
   bool whole_component = false;        // the fragment is a whole connected component
+  bool is_cut_off = false;             // nothing is left to release in its component but what could not be freed
   std::uint32_t stamp = 0;
 
   void clear();

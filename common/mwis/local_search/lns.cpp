@@ -251,6 +251,8 @@ class Lns {
       apply(solver);
       take_left_out();
       run.fragment_done.notify_all();
+      // Threads that share a small component would keep each other from seeing all of it for ever.
+      if (solver.fragment().is_cut_off && begun_ > iterations_) run.fragment_done.wait(lock);
     }
   }
 
