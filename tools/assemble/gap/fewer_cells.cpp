@@ -66,17 +66,18 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
   FewerCells counts;
   GapMesh gap(mesh, surface.tags, is_shared);
   if (!gap.is_valid()) return counts;
+  // The pieces of a mesh would have to agree on chosen cells that go.
+  const bool chosen_may_go = is_shared.empty();
   switch (passes) {
     case Passes::merge:
       gap.ignore_faces();
       counts = merge(gap, surface);
       break;
     case Passes::merge_and_refill:
-      // The pieces of a mesh would have to agree on chosen cells that go.
-      counts = merge_and_refill(gap, surface, is_shared.empty());
+      counts = merge_and_refill(gap, surface, chosen_may_go);
       break;
     case Passes::mend:
-      counts = mend_and_grow(gap, [&](GapMesh& poor) { return mend(poor, is_shared.empty()); });
+      counts = mend_and_grow(gap, [&](GapMesh& poor) { return mend(poor, chosen_may_go); });
       break;
     case Passes::mend_refused:
       gap.be_strict();
@@ -84,7 +85,7 @@ FewerCells make_fewer_cells(hybrid::HybridMesh& mesh, const Surface& surface, st
       break;
     case Passes::open_for_refused: {
       gap.be_strict();
-      if (!may_pass(gap) || !is_shared.empty()) return counts;
+      if (!may_pass(gap) || !chosen_may_go) return counts;
       const std::vector<Vec3> before = mesh.points;
       counts = mend_and_grow(gap, open_for_refused);
       // Worse cells, or one hex less, are worth it only if nothing is left that is refused.

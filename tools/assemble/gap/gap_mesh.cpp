@@ -45,6 +45,24 @@ double hex_volume_of(const GapMesh& gap) {
   return volume;
 }
 
+std::vector<std::array<Vertex, 2>> edges_across_gap(const GapMesh& gap) {
+  std::vector<std::array<Vertex, 2>> edges;
+  for (const auto c : indices<GapIndex>(gap.cell_count())) {
+    if (!gap.is_alive(c)) continue;
+    const GapCell& cell = gap.cell(c);
+    with_topology(cell.kind, [&](auto topology) {
+      for (const auto& [i, k] : decltype(topology)::edges) {
+        const Vertex a = cell.corners[i % 6], b = cell.corners[k % 6];
+        if (gap.is_of_kept(a) && gap.is_of_kept(b)) edges.push_back({std::min(a, b), std::max(a, b)});
+      }
+    });
+  }
+  sort_unique(edges);
+  const auto points = gap.points();
+  std::ranges::stable_sort(edges, {}, [&](const auto& edge) { return norm(points[edge[0]] - points[edge[1]]); });
+  return edges;
+}
+
 double shortest_edge_at(const GapMesh& gap, Vertex v) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const GapIndex c : gap.cells_at(v))

@@ -176,6 +176,9 @@ class GapMesh {
 // The volume of the chosen hexes.
 double hex_volume_of(const GapMesh& gap);
 
+// The edges of the gap's cells between two vertices of chosen cells, the shortest first.
+std::vector<std::array<Vertex, 2>> edges_across_gap(const GapMesh& gap);
+
 // Over the cells of the gap at v.
 double shortest_edge_at(const GapMesh& gap, Vertex v);
 

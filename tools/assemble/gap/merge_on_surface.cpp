@@ -6,7 +6,7 @@
 // lies below. No point above D was filled, because D is a cone from a, and a straight line from a to a point above D
 // begins above D. So no point lies in two cells, where all of them are positive everywhere.
 
-#include "tools/assemble/gap/passes.hpp"
+#include "tools/assemble/gap/merge_on_surface.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,8 +20,8 @@
 #include "tools/assemble/gap/close_gaps.hpp"
 #include "tools/assemble/gap/face_costs.hpp"
 #include "tools/assemble/gap/objective.hpp"
+#include "tools/assemble/gap/passes.hpp"
 #include "tools/assemble/gap/skin.hpp"
-#include "tools/assemble/gap/surface_merger.hpp"
 #include "tools/assemble/shape/nearest_points.hpp"
 
 namespace hexpipe::assemble::gap {
@@ -366,32 +366,10 @@ bool SurfaceMerger::close_on_surface(Vertex a, Vertex b) {
   return true;
 }
 
-// A vertex on the surface stays where it is if the other one is inside.
 bool SurfaceMerger::close(Vertex a, Vertex b) {
   if (!gap_.is_inside(a) && !gap_.is_inside(b)) return close_on_surface(a, b);
-  const bool is_a_inside = gap_.is_inside(a);
-  const Vertex from = is_a_inside ? a : b, into = is_a_inside ? b : a;
-  if (!closer_.may_close(from, into)) return false;
-  const Vec3 before = gap_.points()[into];
-  return closer_.close({from, into, gap_.is_inside(into) ? (gap_.points()[from] + before) * 0.5 : before});
-}
-
-std::vector<std::array<Vertex, 2>> edges_across_gap(const GapMesh& gap) {
-  std::vector<std::array<Vertex, 2>> edges;
-  for (const auto c : indices<GapIndex>(gap.cell_count())) {
-    if (!gap.is_alive(c)) continue;
-    const GapCell& cell = gap.cell(c);
-    with_topology(cell.kind, [&](auto topology) {
-      for (const auto& [i, k] : decltype(topology)::edges) {
-        const Vertex a = cell.corners[i % 6], b = cell.corners[k % 6];
-        if (gap.is_of_kept(a) && gap.is_of_kept(b)) edges.push_back({std::min(a, b), std::max(a, b)});
-      }
-    });
-  }
-  sort_unique(edges);
-  const auto points = gap.points();
-  std::ranges::stable_sort(edges, {}, [&](const auto& edge) { return norm(points[edge[0]] - points[edge[1]]); });
-  return edges;
+  const VertexMerge merge = merge_inside(gap_, a, b);
+  return closer_.may_close(merge.from, merge.into) && closer_.close(merge);
 }
 
 std::int64_t SurfaceMerger::close_gaps() {

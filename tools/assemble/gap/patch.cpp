@@ -31,6 +31,12 @@ constexpr std::array<Vec3, 6> directions{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 
 
 }  // namespace
 
+VertexMerge merge_inside(const GapMesh& gap, Vertex a, Vertex b) {
+  const auto [from, into] = gap.is_inside(a) ? std::array{a, b} : std::array{b, a};
+  const Vec3 at = gap.points()[into];
+  return {from, into, gap.is_inside(into) ? (gap.points()[from] + at) * 0.5 : at};
+}
+
 Patch::Local Patch::local_of(Vertex v) const {
   return static_cast<Local>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
 }

@@ -22,6 +22,9 @@ struct VertexMerge {
   bool is_fixed = false;  // it stays there, because it is on the surface
 };
 
+// Two vertices of which one is inside at least: one on the surface stays where it is.
+VertexMerge merge_inside(const GapMesh& gap, Vertex a, Vertex b);
+
 // A change of the gap: which cells go, and which come.
 struct Replacement {
   std::span<const GapIndex> out;

@@ -1,7 +1,8 @@
-// A row of hexes that ends inside ends at a column of prisms. Where two columns are half a cell apart, or one turns,
-// ten to fourteen pyramids and tets stand between the layers. A column goes when the vertices of one of its three sides
-// merge, pair by pair: its prisms vanish, the hexes behind them become the new column, and the row is one hex shorter.
-// Where the new column meets the next one, what stood between them goes, too.
+// A row of hexes that ends inside ends at a column of prisms. Where the column moves over by a hex from one layer to
+// the next, ten to fourteen pyramids and tets stand between the layers, and six to eight where it turns. A column goes
+// when the vertices of one of its three sides merge, pair by pair: its prisms vanish, the hexes behind them become the
+// new column, and the row is one hex shorter. Where the new column meets the next one, what stood between them goes,
+// too.
 
 #include <algorithm>
 #include <array>
@@ -11,9 +12,9 @@
 #include <vector>
 
 #include "common/mesh/item_lists.hpp"
+#include "tools/assemble/gap/merge_on_surface.hpp"
 #include "tools/assemble/gap/passes.hpp"
 #include "tools/assemble/gap/reshape.hpp"
-#include "tools/assemble/gap/surface_merger.hpp"
 
 namespace hexpipe::assemble::gap {
 namespace {
@@ -103,21 +104,13 @@ bool are_distinct(std::span<const Pair> pairs) {
   return vertices.size() == 2 * pairs.size();
 }
 
-// A vertex on the surface stays where it is if the other one is inside.
 bool RowShortener::merge(std::span<const Pair> pairs) {
   if (!are_distinct(pairs)) return false;
   const auto on_surface = merges_on_surface(pairs);
   if (!on_surface) return false;
   std::vector<VertexMerge> merges;
-  for (const auto& [a, b] : pairs) {
-    const Vec3 at_a = gap_.points()[a], at_b = gap_.points()[b];
-    if (gap_.is_inside(a) && gap_.is_inside(b))
-      merges.push_back({a, b, (at_a + at_b) * 0.5});
-    else if (gap_.is_inside(a))
-      merges.push_back({a, b, at_b});
-    else if (gap_.is_inside(b))
-      merges.push_back({b, a, at_a});
-  }
+  for (const auto& [a, b] : pairs)
+    if (gap_.is_inside(a) || gap_.is_inside(b)) merges.push_back(merge_inside(gap_, a, b));
   for (const SurfaceMerge& merge : *on_surface) merges.push_back(merge.vertices);
   if (!reshaper_.merge(merges)) return false;
   for (const SurfaceMerge& merge : *on_surface) surface_.finish(merge);
@@ -138,8 +131,7 @@ std::optional<Piece> RowShortener::prism_on(const Level& triangle, const Piece& 
 // Appends the prisms beyond a triangle of `from`.
 void RowShortener::climb(Level triangle, const Piece& from, Column& column) const {
   for (auto next = prism_on(triangle, from); next; next = prism_on(triangle, column.prisms.back())) {
-    // A ring of prisms closes.
-    if (*next == from || (!column.prisms.empty() && *next == column.prisms.front())) return;
+    if (*next == from) return;  // the prisms are a ring
     const auto& corners = next->solid.corners;
     for (Vertex& v : triangle) {
       const auto at = static_cast<std::size_t>(std::ranges::find(corners, v) - corners.begin());

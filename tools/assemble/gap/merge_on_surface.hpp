@@ -75,9 +75,6 @@ class SurfaceMerger {
   std::vector<std::vector<Vec3>> gone_at_;  // by vertex: where vertices were that have merged into it
 };
 
-// The edges of the gap's cells between two vertices of chosen cells, the shortest first.
-std::vector<std::array<Vertex, 2>> edges_across_gap(const GapMesh& gap);
-
 template <class May>
 std::optional<SurfaceMerge> SurfaceMerger::merge_of(Vertex a, Vertex b, May&& may) const {
   for (const double part : {0.5, 0.0})
