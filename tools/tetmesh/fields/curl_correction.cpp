@@ -2,10 +2,11 @@
 // section 4.3, and Sokolov, Ray, Untereiner, Lévy: Hexahedral-Dominant Meshing (2016), section 4.3, correct the curl of
 // a field for the same purpose, before they look for periodic coordinates along it.
 //
-// The time is that of reading loops and numbers from memory. Most loops lead along the same links, one loop for each
-// axis, so such loops are stored together, as a bundle. Links are dealt out to parts, which work at the same time; a
-// bundle whose links belong to several parts is in all of them. So each number gets the sums of its loops in the order
-// of the loops, and products of vectors are summed up in blocks of links: threads and parts do not change the result.
+// The time is that of reading loops and numbers from memory. So loops are stored as loop_bundles.hpp says, and an
+// iteration reads all numbers three times: it turns the direction, adds up the loops along it, and goes along it. Links
+// are dealt out to parts, which work at the same time; a bundle whose links belong to several parts is in all of them.
+// So each number gets the sums of its loops in the order of the loops, and products are summed up in pieces of a fixed
+// size: threads and parts do not change the result.
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
 
@@ -26,13 +27,13 @@ namespace {
 // A shorter link does not become stiffer than one of this length, so that the system stays well conditioned.
 constexpr float least_length = 0.1f;
 constexpr double most_scale = 1.2;
-constexpr std::int32_t links_in_block = 2048;
-// So many blocks are summed up at the same time, because each addition waits for the one before it in its block.
-constexpr std::int32_t blocks_at_once = 4;
-constexpr std::int32_t links_at_once = blocks_at_once * links_in_block;
-// Loops are cut into parts of at least this many blocks of links, and into twice as many parts as there are threads.
-// There are no parts where too large a share of the bundles would be in several, as where neighbours have numbers far
-// apart.
+// So many floats are changed at once.
+using Packet = Eigen::Array4f;
+constexpr std::int64_t floats_in_packet = Packet::RowsAtCompileTime;
+constexpr std::int64_t packets_in_piece = 4096;
+// Loops are cut into parts of at least this many blocks of links, one for each thread: the more parts, the more bundles
+// are in several. There are no parts where too large a share of the bundles would be, as where neighbours have numbers
+// far apart.
 constexpr std::int32_t least_part = 8, most_parts = 16;
 constexpr double most_repeated = 0.4;
 
@@ -44,10 +45,9 @@ class CurlSolver {
     Bundles<K> bundles;
     bundles.add(loops);
     number_links(bundles);
+    correction_ = rest_ = image_ = direction_ = weight_ = own_loops_ = own_sums_ = constants(0);
     deal_out(bundles);
-    correction_.assign(links_.size(), Values<K>::Zero());
-    rest_ = image_ = direction_ = correction_;
-    stiffness_.assign(links_.size(), Values<K>::Constant(limits.stiffness));
+    stiffness_ = constants(limits.stiffness);
   }
 
   std::vector<float> solve(std::span<const float> lengths) {
@@ -64,63 +64,42 @@ class CurlSolver {
  private:
   void number_links(Bundles<K>& bundles);
   void deal_out(const Bundles<K>& bundles);
-  using Products = std::array<double, blocks_at_once>;
-  // The products of the numbers of links from begin to end, which are blocks_at_once blocks at most, for each block.
-  // Blocks have sums of their own, so that parts and threads do not change the result.
-  static Products products_of_blocks(const ValuesOfAll<K>& a, const ValuesOfAll<K>& b, std::int64_t begin,
-                                     std::int64_t end) {
-    using Sums = Eigen::Array<double, Values<K>::RowsAtCompileTime, 1>;
-    std::array<Sums, blocks_at_once> sums;
-    sums.fill(Sums::Zero());
-    const auto add = [&](std::int64_t link, Sums& sum) {
-      sum += a[link].template cast<double>() * b[link].template cast<double>();
-    };
-    if (end - begin == links_at_once) {
-      for (std::int64_t link = begin; link < begin + links_in_block; ++link)
-        for (std::int64_t block = 0; block < blocks_at_once; ++block) add(link + block * links_in_block, sums[block]);
-    } else {
-      for (std::int64_t link = begin; link < end; ++link) add(link, sums[(link - begin) / links_in_block]);
-    }
-    Products products;
-    std::ranges::transform(sums, products.begin(), [](const Sums& sum) { return sum.sum(); });
-    return products;
+  // A number for each value of each link, and some more that are 0, up to whole packets.
+  ValuesOfAll<K> constants(float value) const {
+    constexpr std::size_t links_in_packets = K == 3 ? 1 : floats_in_packet / K;
+    ValuesOfAll<K> numbers(links_.size(), Values<K>::Constant(value));
+    numbers.resize((links_.size() + links_in_packets - 1) / links_in_packets * links_in_packets, Values<K>::Zero());
+    return numbers;
   }
-  static double sum_after(double sum, const Products& products) {
-    return std::accumulate(products.begin(), products.end(), sum);
+  static auto packet(ValuesOfAll<K>& numbers, std::int64_t i) {
+    return Eigen::Map<Packet>(numbers.data()->data() + floats_in_packet * i);
   }
-  // Calls find(begin, end) for all links in pieces, and returns the product of their numbers then, in parallel.
-  template <class Find>
-  double add_products(const ValuesOfAll<K>& a, const ValuesOfAll<K>& b, Find&& find) const {
+  // Calls change(i) for all packets, in parallel, and returns the sum of the numbers that come back.
+  template <class Change>
+  double sum_of_packets(Change&& change) {
     double sum = 0;
     parallel_in_order(
-        static_cast<std::int64_t>(links_.size()), links_at_once,
+        static_cast<std::int64_t>(direction_.size()) * Values<K>::RowsAtCompileTime / floats_in_packet,
+        packets_in_piece,
         [&](std::int64_t begin, std::int64_t end) {
-          find(begin, end);
-          return products_of_blocks(a, b, begin, end);
+          // Two sums, because each addition waits for the one before it.
+          std::array<Eigen::Array4d, 2> sums{Eigen::Array4d::Zero(), Eigen::Array4d::Zero()};
+          std::int64_t i = begin;
+          for (; i + 1 < end; i += 2) {
+            sums[0] += change(i).template cast<double>();
+            sums[1] += change(i + 1).template cast<double>();
+          }
+          if (i < end) sums[0] += change(i).template cast<double>();
+          return (sums[0] + sums[1]).sum();
         },
-        [&](const Products& products) { sum = sum_after(sum, products); });
+        [&](double of_piece) { sum += of_piece; });
     return sum;
-  }
-  // Calls change(begin, end) for all links in pieces, in parallel.
-  template <class Change>
-  void change_all(Change&& change) {
-    const auto all = static_cast<std::int64_t>(links_.size());
-    parallel_for((all + links_at_once - 1) / links_at_once, 1, [&](std::int64_t piece) {
-      change(piece * links_at_once, std::min(all, (piece + 1) * links_at_once));
-    });
-  }
-  // Calls body(number of the vector's value) for all values of links from begin to end. They are plain floats then, of
-  // which the processor changes several at once.
-  template <class Body>
-  static void for_each_value(std::int64_t begin, std::int64_t end, Body&& body) {
-    for (std::int64_t i = values * begin; i < values * end; ++i) body(i);
   }
 
   template <class Body>
   void for_each_link(Body&& body) {
-    change_all([&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) body(static_cast<std::size_t>(i));
-    });
+    parallel_for(static_cast<std::int64_t>(links_.size()), links_in_block,
+                 [&](std::int64_t i) { body(static_cast<std::size_t>(i)); });
   }
   Values<K> distances_of(std::size_t i) const {
     Values<K> distances = Values<K>::Zero();
@@ -141,23 +120,24 @@ class CurlSolver {
     for_each_link([&](std::size_t i) { correction_[i] += (scale_ - scale) * distances_of(i); });
     scale_ = scale;
   }
-  // What is missing around loops, with the corrections so far, is the first direction. Returns its squared norm.
+  // Begins with what is missing around loops, with the corrections so far. Returns its squared norm.
   double start() {
     for_each_link([&](std::size_t i) {
       direction_[i] = scale_ * distances_of(i) + correction_[i];
-      rest_[i] = -stiffness_[i] * correction_[i];
+      rest_[i] = own_sums_[i] - own_loops_[i] * direction_[i] - stiffness_[i] * correction_[i];
+      weight_[i] = stiffness_[i] + own_loops_[i];
     });
     parallel_for(static_cast<std::int64_t>(parts_.size()), 1,
-                 [&](std::int64_t i) { parts_[i].template add_sums<true>(crossings_, direction_, rest_); });
-    turn(0);
-    return add_products(rest_, rest_, [](std::int64_t, std::int64_t) {});
+                 [&](std::int64_t i) { parts_[i].add_lacking(crossings_, direction_, rest_); });
+    return sum_of_packets([&](std::int64_t i) -> Packet { return packet(rest_, i).square(); });
   }
   // Goes on from a squared norm of the rest until it is small enough.
   void iterate(double product, double enough) {
+    float onward = 0;
     for (int k = 0; k < limits_.most_iterations && product > enough; ++k) {
-      const auto step = static_cast<float>(product / find_image());
-      const double next = advance(step);
-      turn(static_cast<float>(next / product));
+      const double bend = turn(onward) + add_loops();
+      const double next = advance(static_cast<float>(product / bend));
+      onward = static_cast<float>(next / product);
       product = next;
     }
   }
@@ -169,41 +149,32 @@ class CurlSolver {
       stiffness_[i] *= (limits_.stiffness * (correction_[i].abs() / soft).max(1.0f) / stiffness_[i]).sqrt();
     });
   }
-  // Returns the product of the direction and its image.
-  double find_image() {
+  // Turns the direction to the rest, and begins its image: what it would be without loops along more than one number.
+  // Returns the product of the two.
+  double turn(float onward) {
+    return sum_of_packets([&](std::int64_t i) -> Packet {
+      auto direction = packet(direction_, i), image = packet(image_, i);
+      direction = packet(rest_, i) + onward * direction;
+      image = packet(weight_, i) * direction;
+      return direction * image;
+    });
+  }
+  // Adds the sums around loops to the image. Returns their squares, which are what they add to the product.
+  double add_loops() {
     double sum = 0;
     parallel_in_order(
         static_cast<std::int64_t>(parts_.size()), 1,
-        [&](std::int64_t i, std::int64_t) {
-          const LoopsOfPart<K>& part = parts_[i];
-          part.template add_sums<false>(crossings_, direction_, image_);
-          std::vector<Products> products;
-          const auto [begin, end] = part.range();
-          for (std::int32_t first = begin; first < end; first += links_at_once)
-            products.push_back(products_of_blocks(direction_, image_, first, std::min(first + links_at_once, end)));
-          return products;
-        },
-        [&](const std::vector<Products>& of_part) {
-          for (const Products& products : of_part) sum = sum_after(sum, products);
-        });
+        [&](std::int64_t i, std::int64_t) { return parts_[i].add_sums(crossings_, direction_, image_); },
+        [&](const std::vector<double>& of_blocks) { sum = std::accumulate(of_blocks.begin(), of_blocks.end(), sum); });
     return sum;
   }
   // Returns the squared norm of the rest.
   double advance(float step) {
-    return add_products(rest_, rest_, [&](std::int64_t begin, std::int64_t end) {
-      float *correction = correction_.data()->data(), *rest = rest_.data()->data();
-      const float *direction = direction_.data()->data(), *image = image_.data()->data();
-      for_each_value(begin, end, [&](std::int64_t i) { correction[i] += step * direction[i]; });
-      for_each_value(begin, end, [&](std::int64_t i) { rest[i] -= step * image[i]; });
-    });
-  }
-  // The image is to get the sums around loops, too.
-  void turn(float onward) {
-    change_all([&](std::int64_t begin, std::int64_t end) {
-      float *direction = direction_.data()->data(), *image = image_.data()->data();
-      const float *rest = rest_.data()->data(), *stiffness = stiffness_.data()->data();
-      for_each_value(begin, end, [&](std::int64_t i) { direction[i] = rest[i] + onward * direction[i]; });
-      for_each_value(begin, end, [&](std::int64_t i) { image[i] = stiffness[i] * direction[i]; });
+    return sum_of_packets([&](std::int64_t i) -> Packet {
+      auto correction = packet(correction_, i), rest = packet(rest_, i);
+      correction += step * packet(direction_, i);
+      rest -= step * packet(image_, i);
+      return rest.square();
     });
   }
   std::vector<float> of_all_links() const {
@@ -215,8 +186,6 @@ class CurlSolver {
     return corrections;
   }
 
-  static constexpr std::int64_t values = Values<K>::RowsAtCompileTime;  // stored of each link
-
   CurlLimits limits_;
   float scale_ = 1;  // of the distances that are asked for
   std::span<const float> distances_;
@@ -224,6 +193,8 @@ class CurlSolver {
   std::vector<std::int32_t> links_;    // those that loops lead along, ascending
   std::vector<LoopsOfPart<K>> parts_;  // one after the other
   ValuesOfAll<K> correction_, rest_, image_, direction_, stiffness_;
+  ValuesOfAll<K> own_loops_, own_sums_;  // of the loops along each number alone: how many, and what they ask for
+  ValuesOfAll<K> weight_;                // of each number: its stiffness and those loops
 };
 
 // The others have no numbers here.
@@ -244,7 +215,7 @@ void CurlSolver<K>::deal_out(const Bundles<K>& bundles) {
   const auto all = static_cast<std::int32_t>(links_.size());
   const std::int32_t blocks = (all + links_in_block - 1) / links_in_block;
   std::int32_t count =
-      thread_count() == 1 ? 1 : std::clamp(blocks / least_part, 1, std::min(2 * thread_count(), most_parts));
+      thread_count() == 1 ? 1 : std::clamp(blocks / least_part, 1, std::min(thread_count(), most_parts));
   std::vector<std::int32_t> part_of_block(static_cast<std::size_t>(blocks));
   for (std::int32_t block = 0; block < blocks; ++block)
     part_of_block[block] = static_cast<std::int32_t>(std::int64_t{block} * count / blocks);
@@ -253,9 +224,11 @@ void CurlSolver<K>::deal_out(const Bundles<K>& bundles) {
   const auto for_each_part = [&](auto&& body) {
     std::array<std::size_t, most_parts> seen_in;
     seen_in.fill(bundles.size());
-    for (std::size_t i = 0; i < bundles.size(); ++i)
+    for (std::size_t i = 0; i < bundles.size(); ++i) {
+      if (bundles.has_one_step(i)) continue;
       for (const std::int32_t link : bundles.links_of(i))
         if (std::exchange(seen_in[part_of(link)], i) != i) body(i, part_of(link));
+    }
   };
   std::size_t dealt = 0;
   for_each_part([&](std::size_t, std::int32_t) { ++dealt; });
@@ -269,6 +242,8 @@ void CurlSolver<K>::deal_out(const Bundles<K>& bundles) {
   for (std::size_t part = 1; part < ranges.size(); ++part) ranges[part].begin = ranges[part - 1].end;
   for (const LinkRange& range : ranges) parts_.emplace_back(range);
   for_each_part([&](std::size_t bundle, std::int32_t part) { parts_[part].add(bundles, bundle); });
+  for (std::size_t i = 0; i < bundles.size(); ++i)
+    if (bundles.has_one_step(i)) bundles.add_one_step(crossings_, i, own_loops_, own_sums_);
 }
 
 }  // namespace

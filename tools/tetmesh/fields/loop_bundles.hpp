@@ -1,6 +1,6 @@
 #pragma once
 // Loops over links with K numbers each, stored so that their sums are read at the speed of memory: K loops along the
-// same links, one for each number, are a bundle.
+// same links, one for each number, are a bundle. Most loops are bundles, and most bundles plain triangles.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -176,11 +176,47 @@ class Crossings {
   std::array<BitMatch, K == 2 ? codes : 0> bits_of_loops_, bits_of_numbers_;
 };
 
-// The links from begin to end.
+constexpr std::int32_t links_in_block = 2048;
+
+// The links from begin, which begins a block, to end.
 struct LinkRange {
   std::int32_t begin = 0, end = 0;
 
   bool has(std::int32_t link) const { return link >= begin && link < end; }
+};
+
+// The squares of the sums of bundles, for each block of a range of links those of bundles whose first link is in it.
+// They are added up in the order of the bundles, so they do not depend on what else is in the range.
+template <std::size_t K>
+class SquaresByBlock {
+ public:
+  explicit SquaresByBlock(const LinkRange& range)
+      : range_(range), sums_(static_cast<std::size_t>(range.end - range.begin) / links_in_block + 1, Sums::Zero()) {}
+
+  void add(std::int32_t first_link, const Values<K>& sum) {
+    if (!range_.has(first_link)) return;
+    const std::int32_t block = (first_link - range_.begin) / links_in_block;
+    if (block != block_) {
+      sums_[block_] = sum_;
+      sum_ = sums_[block];
+      block_ = block;
+    }
+    sum_ += sum.square().template cast<double>();
+  }
+  std::vector<double> of_blocks() {
+    sums_[block_] = sum_;
+    std::vector<double> result;
+    for (const Sums& sums : sums_) result.push_back(sums.sum());
+    return result;
+  }
+
+ private:
+  using Sums = Eigen::Array<double, Values<K>::RowsAtCompileTime, 1>;
+
+  LinkRange range_;
+  std::vector<Sums> sums_;
+  std::int32_t block_ = 0;  // the one that grows
+  Sums sum_ = Sums::Zero();
 };
 
 // Loops over links with K numbers each.
@@ -217,11 +253,22 @@ class Bundles {
     return std::ranges::equal(codes, plain) && (wanted_[bundle] == 0).all();
   }
 
+  bool has_one_step(std::size_t bundle) const { return ends_[bundle + 1] - ends_[bundle] == 1; }
+  // Adds a bundle of one step to the loops along each number of its link alone, and what it asks for to their sums.
+  void add_one_step(const Crossings<K>& crossings, std::size_t bundle, ValuesOfAll<K>& loops,
+                    ValuesOfAll<K>& sums) const {
+    const std::uint32_t step = ends_[bundle];
+    Values<K> one = Values<K>::Zero();
+    one.template head<K>() = 1;
+    loops[links_[step]] += crossings.seen_by_numbers(codes_[step], one).abs();
+    sums[links_[step]] += crossings.seen_by_numbers(codes_[step], wanted_[bundle]);
+  }
+
   // Adds the sums of the numbers along the loops of bundles to the images of those links in `range` that they lead
-  // along. With `lacking`, it adds what the sums lack.
-  template <bool lacking>
+  // along, or what these sums lack. Calls told(first link, sums) for each bundle.
+  template <bool lacking, class Told>
   void add_sums(const Crossings<K>& crossings, std::size_t first, std::size_t last, const LinkRange& range,
-                const ValuesOfAll<K>& numbers, ValuesOfAll<K>& images) const;
+                const ValuesOfAll<K>& numbers, ValuesOfAll<K>& images, Told&& told) const;
 
  private:
   bool add_bundle(const Loops& loops, std::size_t first);
@@ -279,14 +326,15 @@ std::size_t Bundles<K>::add_one(const Loops& loops, std::size_t loop) {
 }
 
 template <std::size_t K>
-template <bool lacking>
+template <bool lacking, class Told>
 void Bundles<K>::add_sums(const Crossings<K>& crossings, std::size_t first, std::size_t last, const LinkRange& range,
-                          const ValuesOfAll<K>& numbers, ValuesOfAll<K>& images) const {
+                          const ValuesOfAll<K>& numbers, ValuesOfAll<K>& images, Told&& told) const {
   for (std::size_t bundle = first; bundle < last; ++bundle) {
     Values<K> sum = Values<K>::Zero();
     const std::int64_t begin = ends_[bundle], end = ends_[bundle + 1];
     for (std::int64_t s = begin; s < end; ++s) sum += crossings.seen_by_loops(codes_[s], numbers[links_[s]]);
     if constexpr (lacking) sum = wanted_[bundle] - sum;
+    told(links_[begin], sum);
     for (std::int64_t s = begin; s < end; ++s)
       if (range.has(links_[s])) images[links_[s]] += crossings.seen_by_numbers(codes_[s], sum);
   }
@@ -311,26 +359,39 @@ class LoopsOfPart {
     }
   }
 
-  // As that of bundles.
-  template <bool lacking>
-  void add_sums(const Crossings<K>& crossings, const ValuesOfAll<K>& numbers, ValuesOfAll<K>& images) const {
+  // Adds the sums of the numbers along loops to the images of the range's links. Returns the sums of their squares, a
+  // bundle's for the block of its first link.
+  std::vector<double> add_sums(const Crossings<K>& crossings, const ValuesOfAll<K>& numbers,
+                               ValuesOfAll<K>& images) const {
+    SquaresByBlock<K> squares(range_);
+    add<false>(crossings, numbers, images, [&](std::int32_t link, const Values<K>& sum) { squares.add(link, sum); });
+    return squares.of_blocks();
+  }
+  // Adds what the sums lack.
+  void add_lacking(const Crossings<K>& crossings, const ValuesOfAll<K>& numbers, ValuesOfAll<K>& images) const {
+    add<true>(crossings, numbers, images, [](std::int32_t, const Values<K>&) {});
+  }
+
+ private:
+  template <bool lacking, class Told>
+  void add(const Crossings<K>& crossings, const ValuesOfAll<K>& numbers, ValuesOfAll<K>& images, Told&& told) const {
     std::size_t triangle = 0, other = 0;
     for (const Ends& ends : ends_) {
-      others_.template add_sums<lacking>(crossings, other, ends.others, range_, numbers, images);
+      others_.template add_sums<lacking>(crossings, other, ends.others, range_, numbers, images, told);
       other = ends.others;
       for (; triangle < ends.triangles; ++triangle) {
         const auto& [first, second, back] = triangles_[triangle];
         Values<K> sum = numbers[first] + numbers[second] - numbers[back];
         if constexpr (lacking) sum = -sum;
+        told(first, sum);
         if (range_.has(first)) images[first] += sum;
         if (range_.has(second)) images[second] += sum;
         if (range_.has(back)) images[back] -= sum;
       }
     }
-    others_.template add_sums<lacking>(crossings, other, others_.size(), range_, numbers, images);
+    others_.template add_sums<lacking>(crossings, other, others_.size(), range_, numbers, images, told);
   }
 
- private:
   // Other bundles and then triangles up to these numbers follow those before.
   struct Ends {
     std::size_t triangles, others;

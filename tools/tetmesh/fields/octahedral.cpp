@@ -89,7 +89,7 @@ double value_at(const Harmonics& function, const Vec3& direction) {
 Frame climb_to_frame(const Harmonics& function, const Frame& start) {
   // At the frame of a function c (x^4 + y^4 + z^4 - 3/5), the value is 1.2 c and the curvature is 8 c in any direction.
   // This gives Newton's step for the function of a frame, and a safe step for others.
-  constexpr double curvature = 8 / 1.2, longest_step = 0.35, close_enough = 1e-6;
+  constexpr double curvature = 8 / 1.2, longest_step = 0.35, close_enough = 1e-4;
   constexpr int most_steps = 40;
   const double greatest = std::sqrt(function.squaredNorm() * frame_norm_squared);
   Frame frame = start;

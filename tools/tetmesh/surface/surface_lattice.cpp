@@ -32,9 +32,9 @@ constexpr double guide_weight = 5, most_guide_change = 0.25;
 // Where the nodes that the guide asks agree by less, from 0 to 1, its coordinates do not change distances.
 constexpr double least_agreement_of_guide = 0.5;
 constexpr fields::DiffusionLimits diffusion_limits{200, 1e-3};
-constexpr int smoothing_sweeps = 60;  // 20 lose 1 % of the volume in hexes on small models
+constexpr int smoothing_sweeps = 20;
 // Both sides of a wall agree again after these.
-constexpr int sweeps_after_joining = 30;
+constexpr int sweeps_after_joining = 10;
 constexpr double certain = 1e-3;  // least modulus of a number that some feature has reached
 // The least strength with which the step to the next point of the lattice keeps to the field.
 constexpr double least_hold = 1e-9;
@@ -102,11 +102,11 @@ class PhaseSolver {
   }
 
   void smooth(std::vector<Phases>& phases, int sweeps) const {
-    std::vector<Phases> numbers = in_order(phases), next;
-    for (int sweep = 0; sweep < sweeps; ++sweep)
-      fields::sweep<2>(
-          numbers, next, [&](const auto& body) { for_each(body); }, [&](std::size_t i) { return view(numbers, i); },
-          [&](std::size_t i) { return degrees_[i]; }, [&](std::size_t i, std::size_t k) { return targets_[i][k]; });
+    std::vector<Phases> numbers = in_order(phases);
+    fields::smooth<2>(
+        numbers, sweeps, [&](const auto& body) { for_each(body); },
+        [&](const std::vector<Phases>& before, std::size_t i) { return view(before, i); },
+        [&](std::size_t i) { return degrees_[i]; }, [&](std::size_t i, std::size_t k) { return targets_[i][k]; });
     phases = in_list(numbers);
   }
 

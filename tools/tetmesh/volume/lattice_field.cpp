@@ -20,8 +20,7 @@ constexpr double anchor_weight = 20;
 // A surface point holds the lattice if cos(2 pi coordinate), averaged over its neighbours, exceeds anchor_threshold:
 // the more, the stronger, up to full strength at 1. Below the threshold it holds it weakly.
 constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
-// 30 lengthen the lines along which rows end by 2 % where the surface's points do not hold the lattice.
-constexpr int smoothing_sweeps = 60;
+constexpr int smoothing_sweeps = 20;
 // A link along the surface is no step up to the first length, and one step from the second to the third, in sizes.
 // Between the first and the second it is not decided.
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
@@ -68,7 +67,7 @@ class LatticeSolver {
     diffuse();
     for (Phases& phases : phases_)
       for (fields::Complex& phase : phases) phase = fields::unit(phase);
-    for (int i = 0; i < smoothing_sweeps; ++i) sweep();
+    smooth();
     return result();
   }
 
@@ -101,7 +100,7 @@ class LatticeSolver {
   Phases view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const;
   double diagonal(std::size_t i, std::size_t axis) const { return degree_[i] + anchors_[i][axis]; }
   void diffuse();
-  void sweep();
+  void smooth();
   LatticeField result();
   std::array<Vec3, 3> steps_of(std::size_t i) const;
 
@@ -113,7 +112,7 @@ class LatticeSolver {
   std::vector<std::int32_t> pair_numbers_;      // of each link to a later node: its number among such links
   std::vector<double> degree_;                  // of each node: the sum of the weights of its links
   std::vector<std::array<double, 3>> anchors_;  // how strongly each number is held at 1, as at a point of the lattice
-  std::vector<Phases> phases_, next_phases_;
+  std::vector<Phases> phases_;
 };
 
 void LatticeSolver::measure_degree(std::size_t i) {
@@ -249,11 +248,11 @@ void LatticeSolver::diffuse() {
       [&](const std::vector<Phases>& phases, std::size_t i) { return view_of_neighbours(phases, i); });
 }
 
-void LatticeSolver::sweep() {
-  fields::sweep<3>(
-      phases_, next_phases_, [&](const auto& body) { for_each_node(body); },
-      [&](std::size_t i) { return view_of_neighbours(phases_, i); }, [&](std::size_t i) { return degree_[i]; },
-      [&](std::size_t i, std::size_t k) { return anchors_[i][k]; });
+void LatticeSolver::smooth() {
+  fields::smooth<3>(
+      phases_, smoothing_sweeps, [&](const auto& body) { for_each_node(body); },
+      [&](const std::vector<Phases>& phases, std::size_t i) { return view_of_neighbours(phases, i); },
+      [&](std::size_t i) { return degree_[i]; }, [&](std::size_t i, std::size_t k) { return anchors_[i][k]; });
 }
 
 // By the distances to the neighbours, which correct_curl has changed.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "tools/tetmesh/fields/lattice_steps.hpp"
 #include "tools/tetmesh/geometry/sized_point_grid.hpp"
@@ -12,8 +13,8 @@
 namespace hexpipe::tetmesh::volume {
 namespace {
 
-// Nodes within this many sizes are asked; 1 is as good.
-constexpr double reach_of_guide = 1.5;
+// Nodes within this many sizes are asked; 1 and 1.5 are as good.
+constexpr double reach_of_guide = 1.2;
 // The normals of a smooth node and of the place differ by less: the node is not on the other side of a wall.
 constexpr double same_side_cosine = 0.7;
 
@@ -43,7 +44,11 @@ class GuideAtNodes {
   GuideAtNodes(const FieldNodes& nodes, const std::vector<fields::Frame>& frames, const LatticeField& lattice,
                const sizing::SizeField& size)
       : nodes_(nodes), frames_(frames), lattice_(lattice), size_(size), grid_(nodes.points.front()) {
-    for (std::size_t i = 0; i < nodes.surface.size(); ++i) grid_.add(nodes.points[i], nodes.sizes[i]);
+    in_steps_.reserve(nodes.surface.size());
+    for (std::size_t i = 0; i < nodes.surface.size(); ++i) {
+      grid_.add(nodes.points[i], nodes.sizes[i]);
+      in_steps_.emplace_back(lattice.steps[i]);
+    }
   }
 
   // The mean of what the nodes around the place see there, the nearest above all. It is short where they disagree.
@@ -76,14 +81,15 @@ class GuideAtNodes {
   Vec3 coordinates_at(const Vec3& place, double size, std::int32_t i) const {
     const Vec3 way = (2 / (nodes_.sizes[i] + size)) * (place - nodes_.points[i]);
     const auto& here = lattice_.coordinates[i];
-    return Vec3{here[0], here[1], here[2]} + fields::InSteps(lattice_.steps[i])(way);
+    return Vec3{here[0], here[1], here[2]} + in_steps_[i](way);
   }
 
   const FieldNodes& nodes_;
   const std::vector<fields::Frame>& frames_;
   const LatticeField& lattice_;
   const sizing::SizeField& size_;
-  geometry::SizedPointGrid grid_;  // of the nodes on the surface
+  geometry::SizedPointGrid grid_;          // of the nodes on the surface
+  std::vector<fields::InSteps> in_steps_;  // of these
 };
 
 }  // namespace
