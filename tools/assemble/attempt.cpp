@@ -34,6 +34,8 @@ constexpr int most_merging_rounds = 3;
 // Rounds of smoothing after all but the first of these: five leave no fewer cells and no better ones, and assemble
 // takes a tenth longer.
 constexpr int rounds_between_merges = 2;
+// Rounds of smoothing where cells are good already, at the end: a fourth and fifth find nothing more.
+constexpr int polishing_rounds = 3;
 // Rounds of flips, new vertices and peeling.
 constexpr int most_mending_rounds = 4;
 // Shares of the time that an attempt takes, for the line of progress.
@@ -123,6 +125,7 @@ class Builder {
   void merge_and_smooth(Attempt& attempt) const;
   void mend(Attempt& attempt) const;
   void improve(Attempt& attempt, int rounds) const;
+  void polish(Attempt& attempt) const;
   bool mend_flat_tets(Attempt& attempt) const;
   std::vector<CandidateIndex> poor_candidates(const hybrid::HybridMesh& mesh) const;
   void check_cells_left(const hybrid::HybridMesh& mesh) const;
@@ -208,6 +211,7 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
     if (poor_cells(extracted.mesh).empty()) break;
   }
   step.reset();
+  polish(attempt);
   step.emplace("mending poor cells", mending_ends, 1);
   if (rules_.merges) mend(attempt);
 }
@@ -234,6 +238,16 @@ void Builder::improve(Attempt& attempt, int rounds) const {
   attempt.improvement.rounds += counts.rounds;
   attempt.improvement.moves += counts.moves;
   shape::untangle(mesh, untangling_rounds, &surface);
+  move_points(attempt.extracted, attempt.mesh);
+}
+
+// When cells stay as they are. What is still poor then is mended after it.
+void Builder::polish(Attempt& attempt) const {
+  const shape::SlidingSurface surface = sliding(attempt.extracted);
+  const shape::SmoothCounts counts =
+      shape::polish(attempt.extracted.mesh, std::min(rules_.smooth_rounds, polishing_rounds), &surface);
+  attempt.improvement.rounds += counts.rounds;
+  attempt.improvement.moves += counts.moves;
   move_points(attempt.extracted, attempt.mesh);
 }
 
