@@ -32,8 +32,17 @@ build() {
   cmake --build --preset "$1" --parallel "$jobs"
 }
 
+# What failed is said once more at the end, above ctest's closing lines: there may be thousands of lines between.
 run_tests() {
-  ctest --test-dir "build-$1" --output-on-failure --parallel "$tests_at_once" --no-tests=error
+  local log="$logs/tests-$1" status=0
+  ctest --test-dir "build-$1" --output-on-failure --parallel "$tests_at_once" --no-tests=error 2>&1 | tee "$log" || status=$?
+  if ((status != 0)); then
+    printf '\n'
+    sed '/% tests passed/,$d' "$log" |
+      grep -a -E -A 12 '^not ok |: Failure$|ERROR: |runtime error:|[*]{3}(Timeout|Exception)' | grep -a -Ev '^(ok |\[  )' | cut -c 1-300 | head -n 60 || true
+    sed -n '/% tests passed/,$p' "$log"
+  fi
+  return $status
 }
 
 # Names the compiler of the sanitized half. clang++ needs two thirds of the time of g++ for sanitized code, and sees other
