@@ -32,7 +32,6 @@ struct Prepared {
   FieldSurface surface;
   std::vector<OppositeSide> opposite;
   CrossField field;
-  std::vector<float> corrections;
   std::vector<SurfacePoint> points;
 
  private:
@@ -41,7 +40,7 @@ struct Prepared {
         surface(mesh, size),
         opposite(knows_sides ? opposite_sides(surface) : std::vector<OppositeSide>()),
         field(cross_field(surface, opposite)),
-        points(surface_lattice(surface, field, opposite, kept, 0, {}, corrections).points) {}
+        points(surface_lattice({surface, field, opposite, kept}, kept, 0, {}).points) {}
 
   static FeatureMesh mesh_of(const Surface& whole, double size) {
     FeatureMesh mesh(whole, 40);

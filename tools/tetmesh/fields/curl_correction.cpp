@@ -5,8 +5,8 @@
 // The time is that of reading loops and numbers from memory. So loops are stored as loop_bundles.hpp says, and an
 // iteration reads all numbers three times: it turns the direction, adds up the loops along it, and goes along it. Links
 // are dealt out to parts, which work at the same time; a bundle whose links belong to several parts is in all of them.
-// So each number gets the sums of its loops in the order of the loops, and products are summed up in pieces of a fixed
-// size: threads and parts do not change the result.
+// So each number gets what loops along it alone ask for, then the sums of the others in the order of the loops, and
+// products are summed up in pieces of a fixed size: threads and parts do not change the result.
 
 #include "tools/tetmesh/fields/curl_correction.hpp"
 
@@ -230,9 +230,10 @@ void CurlSolver<K>::deal_out(const Bundles<K>& bundles) {
         if (std::exchange(seen_in[part_of(link)], i) != i) body(i, part_of(link));
     }
   };
-  std::size_t dealt = 0;
+  std::size_t dealt = 0, whole = 0;
+  for (std::size_t i = 0; i < bundles.size(); ++i) whole += bundles.has_one_step(i) ? 0 : 1;
   for_each_part([&](std::size_t, std::int32_t) { ++dealt; });
-  if (static_cast<double>(dealt) > (1 + most_repeated) * static_cast<double>(bundles.size())) {
+  if (static_cast<double>(dealt) > (1 + most_repeated) * static_cast<double>(whole)) {
     count = 1;
     std::ranges::fill(part_of_block, 0);
   }

@@ -1,11 +1,13 @@
 #pragma once
 // Loops over links with K numbers each, stored so that their sums are read at the speed of memory: K loops along the
-// same links, one for each number, are a bundle. Most loops are bundles, and most bundles plain triangles.
+// same links, one for each number, are a bundle. Most loops are bundles, most bundles plain triangles, and of the
+// others nearly all have one step: these are no loops to go along, but counts and sums at their numbers.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
@@ -332,6 +334,7 @@ void Bundles<K>::add_sums(const Crossings<K>& crossings, std::size_t first, std:
   for (std::size_t bundle = first; bundle < last; ++bundle) {
     Values<K> sum = Values<K>::Zero();
     const std::int64_t begin = ends_[bundle], end = ends_[bundle + 1];
+    assert(begin < end);
     for (std::int64_t s = begin; s < end; ++s) sum += crossings.seen_by_loops(codes_[s], numbers[links_[s]]);
     if constexpr (lacking) sum = wanted_[bundle] - sum;
     told(links_[begin], sum);
@@ -347,7 +350,6 @@ class LoopsOfPart {
  public:
   explicit LoopsOfPart(const LinkRange& range) : range_(range) {}
 
-  const LinkRange& range() const { return range_; }
   void add(const Bundles<K>& bundles, std::size_t bundle) {
     if (bundles.is_plain_triangle(bundle)) {
       const auto links = bundles.links_of(bundle);

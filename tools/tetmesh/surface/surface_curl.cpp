@@ -208,8 +208,8 @@ std::vector<float> find_corrections(const SurfaceLinks& links, std::span<const V
 
 }  // namespace
 
-void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept, std::vector<float>& corrections) {
-  if (corrections.empty()) corrections = find_corrections(links, kept);
+void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept) {
+  const std::vector<float> corrections = find_corrections(links, kept);
   links.change_distances([&](geometry::HalfEdge h, SurfaceLink& link) {
     const std::int32_t f = geometry::triangle_of(h);
     const double longest =

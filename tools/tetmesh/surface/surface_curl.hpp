@@ -10,9 +10,8 @@
 namespace hexpipe::tetmesh::surface {
 
 // `kept` holds the vertices of the surface that are points of the lattice: on features, it is one step from each to the
-// next. `corrections` keeps what is found: where it is not empty, it holds the corrections of the same links, with the
-// same vertices kept.
-void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept, std::vector<float>& corrections);
+// next.
+void correct_curl(SurfaceLinks& links, std::span<const Vertex> kept);
 
 // For each half-edge of a feature: the distance on its left from the middle of the half-edge before it to its own
 // middle. It is in steps of a lattice whose rows continue beyond the feature and reach the other features, wherever

@@ -243,11 +243,11 @@ void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook,
 
 }  // namespace
 
-FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
-                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch,
-                          const RowGuide& guide, std::vector<float>& corrections) {
-  const SurfaceLattice lattice = surface_lattice(surface, field, opposite, kept, row_stretch, guide, corrections);
-  return {SurfaceFront(surface, field, size).run(lattice, kept, guide.points), lattice.row_ends};
+FrontPoints surface_front(const CorrectedLinks& links, std::span<const Vertex> kept, const sizing::SizeField& size,
+                          double row_stretch, const RowGuide& guide) {
+  const SurfaceLattice lattice = surface_lattice(links, kept, row_stretch, guide);
+  return {SurfaceFront(links.links.surface, links.links.field, size).run(lattice, kept, guide.points),
+          lattice.row_ends};
 }
 
 }  // namespace hexpipe::tetmesh::surface

@@ -17,9 +17,8 @@ struct FrontPoints {
 };
 
 // `kept` holds the vertices of the surface that are points already: those of its feature curves. `row_stretch`: see
-// surface_lattice.hpp, and for `guide` and `corrections`.
-FrontPoints surface_front(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
-                          std::span<const Vertex> kept, const sizing::SizeField& size, double row_stretch,
-                          const RowGuide& guide, std::vector<float>& corrections);
+// surface_lattice.hpp, and for `guide`.
+FrontPoints surface_front(const CorrectedLinks& links, std::span<const Vertex> kept, const sizing::SizeField& size,
+                          double row_stretch, const RowGuide& guide);
 
 }  // namespace hexpipe::tetmesh::surface

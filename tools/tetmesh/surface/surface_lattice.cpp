@@ -177,19 +177,21 @@ std::vector<std::int32_t> PhaseSolver::walk(const SurfaceLinks& links) {
 
 class LatticeMaker {
  public:
-  LatticeMaker(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite)
-      : surface_(surface), field_(field), walker_(surface, field), links_(surface, field), across_(links_, opposite) {
-    const std::size_t count = surface.triangles.size();
+  explicit LatticeMaker(const CorrectedLinks& known)
+      : surface_(known.links.surface),
+        field_(known.links.field),
+        walker_(surface_, field_),
+        links_(known.links),
+        across_(known.across) {
+    const std::size_t count = surface_.triangles.size();
     degrees_.resize(count);
     pulls_.resize(count);
     targets_.resize(count);
     phases_.resize(count);
-    greatest_size_ = std::ranges::max(surface.sizes);
+    greatest_size_ = std::ranges::max(surface_.sizes);
   }
 
-  SurfaceLattice make(std::span<const Vertex> kept, double row_stretch, const RowGuide& guide,
-                      std::vector<float>& corrections) {
-    correct_curl(links_, kept, corrections);
+  SurfaceLattice make(std::span<const Vertex> kept, double row_stretch, const RowGuide& guide) {
     weigh_links();
     make_anchors(kept);
     if (guide.coordinates) {
@@ -250,7 +252,7 @@ class LatticeMaker {
   FieldWalker walker_;
   double greatest_size_;
   SurfaceLinks links_;
-  LinksAcross across_;
+  const LinksAcross& across_;
   std::vector<double> degrees_;               // of each triangle: the sum of the weights of its links
   std::vector<std::array<double, 2>> pulls_;  // of features on each number of a triangle: their sum
   std::vector<Phases> targets_;               // the numbers that features ask for, each times its pull
@@ -419,10 +421,15 @@ Proposal LatticeMaker::agreed(const fields::ProposalIndex<Proposal>& index, cons
 
 }  // namespace
 
-SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
-                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept, double row_stretch,
-                               const RowGuide& guide, std::vector<float>& corrections) {
-  return LatticeMaker(surface, field, opposite).make(kept, row_stretch, guide, corrections);
+CorrectedLinks::CorrectedLinks(const FieldSurface& surface, const CrossField& field,
+                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept)
+    : links(surface, field), across(links, opposite) {
+  correct_curl(links, kept);
+}
+
+SurfaceLattice surface_lattice(const CorrectedLinks& known, std::span<const Vertex> kept, double row_stretch,
+                               const RowGuide& guide) {
+  return LatticeMaker(known).make(kept, row_stretch, guide);
 }
 
 }  // namespace hexpipe::tetmesh::surface

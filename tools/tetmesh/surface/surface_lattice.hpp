@@ -10,6 +10,9 @@
 #include "tools/tetmesh/fields/periodic_numbers.hpp"
 #include "tools/tetmesh/surface/cross_field.hpp"
 #include "tools/tetmesh/surface/field_walk.hpp"
+#include "tools/tetmesh/surface/links_across.hpp"
+#include "tools/tetmesh/surface/opposite_sides.hpp"
+#include "tools/tetmesh/surface/surface_links.hpp"
 
 namespace hexpipe::tetmesh::surface {
 
@@ -33,13 +36,22 @@ struct SurfaceLattice {
   std::int64_t row_ends = 0;  // rows that end inside a face, not at a feature
 };
 
-// `kept` are the vertices of the surface that are points already. `opposite` says which sides face each other across
-// the inside of the model: rows lead from one to the other. `row_stretch` is the most by which the distance between two
+// How the triangles of a surface see others along a field, and across the inside of the model where sides face each
+// other: rows lead from one to the other. Distances add up (surface_curl.hpp). `kept` are the vertices of the surface
+// that are points already. Lattices on the same surface, field and vertices have these in common, with or without a
+// guide.
+struct CorrectedLinks {
+  CorrectedLinks(const FieldSurface& surface, const CrossField& field, std::span<const OppositeSide> opposite,
+                 std::span<const Vertex> kept);
+
+  SurfaceLinks links;
+  LinksAcross across;
+};
+
+// `kept` as those of the links. `row_stretch` is the most by which the distance between two
 // neighbouring triangles of the field may change, in sizes, to join two rows that would end; 0 joins none. With a
-// guide, the lattice is that of the guide wherever it is certain. `corrections` are those of surface_curl.hpp: a second
-// lattice on the same surface, field and vertices needs no others, with or without a guide.
-SurfaceLattice surface_lattice(const FieldSurface& surface, const CrossField& field,
-                               std::span<const OppositeSide> opposite, std::span<const Vertex> kept, double row_stretch,
-                               const RowGuide& guide, std::vector<float>& corrections);
+// guide, the lattice is that of the guide wherever it is certain.
+SurfaceLattice surface_lattice(const CorrectedLinks& known, std::span<const Vertex> kept, double row_stretch,
+                               const RowGuide& guide);
 
 }  // namespace hexpipe::tetmesh::surface

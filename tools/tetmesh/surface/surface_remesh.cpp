@@ -124,7 +124,7 @@ class SurfaceRemesher::Work {
     FieldSurface surface;
     FieldAndSides field;
     double row_stretch;
-    std::vector<float> corrections = {};  // of distances, since the first lattice
+    std::optional<CorrectedLinks> links = {};  // since the first lattice
   };
 
   const solid::Surface& given_;  // from which distances are reported
@@ -229,9 +229,9 @@ bool SurfaceRemesher::Work::place_points() {
 }
 
 void SurfaceRemesher::Work::place_front(const RowGuide& guide) {
-  auto& [mesh, kept, surface, field, row_stretch, corrections] = *carrier_;
-  const auto [points, row_ends] =
-      surface_front(surface, field.field, field.opposite, kept, size_, row_stretch, guide, corrections);
+  auto& [mesh, kept, surface, field, row_stretch, links] = *carrier_;
+  if (!links) links.emplace(surface, field.field, field.opposite, kept);
+  const auto [points, row_ends] = surface_front(*links, kept, size_, row_stretch, guide);
   insert_points(prepared_, points, snap * size_);
   result.feature_points = count_places(kept);
   result.front_points = points.size();
