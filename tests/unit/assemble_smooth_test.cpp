@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include "assemble_lattice.hpp"
 #include "cell_shapes.hpp"
 #include "common/mesh/adjacency.hpp"
 #include "common/mesh/quality.hpp"
 #include "tests/unit/random_cases.hpp"
 #include "tools/assemble/assemble.hpp"
-#include "tools/assemble/choice/selection.hpp"
 #include "tools/assemble/conform/flat_tets.hpp"
 #include "tools/assemble/shape/point_star.hpp"
 #include "tools/assemble/shape/smooth.hpp"

@@ -39,7 +39,7 @@ constexpr int polishing_rounds = 3;
 // Rounds of flips, new vertices and peeling.
 constexpr int most_mending_rounds = 4;
 // Shares of the time that an attempt takes, for the line of progress.
-constexpr double conforming_ends = 0.33, merging_ends = 0.88, mending_ends = 0.97;
+constexpr double conforming_ends = 0.33, merging_ends = 0.83, mending_ends = 0.91, polishing_ends = 0.97;
 // Tets that smoothing leaves below the first are flipped. Those that are then below the second get a vertex beside
 // them.
 constexpr double worth_a_flip = 0.15;
@@ -211,8 +211,10 @@ void Builder::smooth_and_mend(Attempt& attempt) const {
     if (poor_cells(extracted.mesh).empty()) break;
   }
   step.reset();
+  step.emplace("smoothing", mending_ends, polishing_ends);
   polish(attempt);
-  step.emplace("mending poor cells", mending_ends, 1);
+  step.reset();
+  step.emplace("mending poor cells", polishing_ends, 1);
   if (rules_.merges) mend(attempt);
 }
 
