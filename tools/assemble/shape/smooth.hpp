@@ -54,8 +54,8 @@ using Settled = std::vector<std::uint64_t>;
 // `settled`, which needs `sliding`, is read and written.
 SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr, Settled* settled = nullptr);
 
-// As smooth(), also around vertices that smooth() passes over, for all their cells are above 0.9: the mean hex gets
-// better, and hexes larger. For the end, because there are many of these.
+// As smooth(), but for vertices among hexes alone, also where smooth() passes over them because all are above 0.9. The
+// mean hex gets better, and no other cell changes. For the end, because there are many such vertices.
 SmoothCounts polish(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
 // Raises the worst pyramid, then the worst tet, and the next where that came about, until one is good enough or does

@@ -74,6 +74,7 @@ class Smoother {
         cells_(mesh),
         freedoms_(vertex_freedoms(mesh)),
         due_(mesh.points.size(), 1),
+        stays_(mesh.points.size()),
         quality_(cells_.size(), unknown) {
     if (sliding == nullptr) return;
     sliding_ = sliding;
@@ -82,12 +83,19 @@ class Smoother {
     deviation_.emplace(mesh, sliding->surface, sliding->input_points, sliding->origin);
   }
 
+  // From now on only vertices among hexes alone move in rounds.
+  void keep_others() {
+    for (std::int32_t c = 0; c < static_cast<std::int32_t>(cells_.size()); ++c)
+      if (cells_.kind(c) != CellKind::hex)
+        for (const Vertex v : cells_.corners_of(c)) stays_[v] = 1;
+  }
+
   // Returns the number of vertices that moved. Looks only at vertices whose worst cell, weighted or unweighted, is
   // below `only_below`.
   std::int64_t round(double only_below, bool weighted) {
     std::int64_t moves = 0;
     for (Vertex v = 0; v < static_cast<Vertex>(points_.size()); ++v) {
-      if (!due_[v] || (freedoms_[v].kind == Freedom::Kind::none && !slides(v))) continue;
+      if (!due_[v] || stays_[v] || (freedoms_[v].kind == Freedom::Kind::none && !slides(v))) continue;
       due_[v] = 0;
       if (!improve(v, only_below, weighted)) continue;
       ++moves;
@@ -150,7 +158,8 @@ class Smoother {
   const SlidingSurface* sliding_ = nullptr;
   std::optional<BoundaryDeviation> deviation_;
   std::vector<std::uint8_t> due_;  // something around has moved since it was looked at
-  std::vector<double> quality_;    // by cell
+  std::vector<std::uint8_t> stays_;
+  std::vector<double> quality_;  // by cell
   PointStar star_;
   // While improve() looks at a vertex: its star as it is and as it would be, and cells at it that were valid, and
   // prisms that were upright.
