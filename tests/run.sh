@@ -39,7 +39,8 @@ run_tests() {
   if ((status != 0)); then
     printf '\n'
     sed '/% tests passed/,$d' "$log" |
-      grep -a -E -A 12 '^not ok |: Failure$|ERROR: |runtime error:|[*]{3}(Timeout|Exception)' | grep -a -Ev '^(ok |\[  )' | cut -c 1-300 | head -n 60 || true
+      grep -a -E -A 12 '^not ok |: Failure$|ERROR: |runtime error:|[*]{3}(Timeout|Exception)' |
+      grep -a -Ev '^(ok |\[  )' | cut -c 1-300 | head -n 60 || true
     sed -n '/% tests passed/,$p' "$log"
   fi
   return $status

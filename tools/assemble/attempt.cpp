@@ -51,6 +51,13 @@ void move_points(const hybrid::Extract& from, hybrid::HybridMesh& to) {
   for (std::size_t i = 0; i < from.origin.size(); ++i) to.points[from.origin[i]] = from.mesh.points[i];
 }
 
+// Counts what smoothing did; the mesh gets its vertices' new places.
+void take_over(const shape::SmoothCounts& counts, Attempt& attempt) {
+  attempt.improvement.rounds += counts.rounds;
+  attempt.improvement.moves += counts.moves;
+  move_points(attempt.extracted, attempt.mesh);
+}
+
 bool is_worse(const hybrid::HybridMesh& mesh, CellKind kind, std::span<const Vertex> corners, double limit) {
   const auto at = corner_points(mesh.points, corners);
   const double scale = kind == CellKind::tet ? std::sqrt(2.0) : 1;
@@ -237,20 +244,14 @@ void Builder::improve(Attempt& attempt, int rounds) const {
   const shape::SlidingSurface surface = sliding(attempt.extracted);
   const Step step("smoothing", 0.4, 1);
   const shape::SmoothCounts counts = shape::smooth(mesh, rounds, &surface, &attempt.settled);
-  attempt.improvement.rounds += counts.rounds;
-  attempt.improvement.moves += counts.moves;
   shape::untangle(mesh, untangling_rounds, &surface);
-  move_points(attempt.extracted, attempt.mesh);
+  take_over(counts, attempt);
 }
 
-// When cells stay as they are. What is still poor then is mended after it.
+// Comes when no more cells merge, flip or give way, but before single cells are mended.
 void Builder::polish(Attempt& attempt) const {
   const shape::SlidingSurface surface = sliding(attempt.extracted);
-  const shape::SmoothCounts counts =
-      shape::polish(attempt.extracted.mesh, std::min(rules_.smooth_rounds, polishing_rounds), &surface);
-  attempt.improvement.rounds += counts.rounds;
-  attempt.improvement.moves += counts.moves;
-  move_points(attempt.extracted, attempt.mesh);
+  take_over(shape::polish(attempt.extracted.mesh, std::min(rules_.smooth_rounds, polishing_rounds), &surface), attempt);
 }
 
 // Mends tets for which moving vertices is not enough. False if it changes nothing.

@@ -48,9 +48,9 @@ struct CorrectedLinks {
   LinksAcross across;
 };
 
-// `kept` as those of the links. `row_stretch` is the most by which the distance between two
-// neighbouring triangles of the field may change, in sizes, to join two rows that would end; 0 joins none. With a
-// guide, the lattice is that of the guide wherever it is certain.
+// `kept` are those of the links. `row_stretch` is the most by which the distance between two neighbouring triangles of
+// the field may change, in sizes, to join two rows that would end; 0 joins none. With a guide, the lattice is that of
+// the guide wherever it is certain.
 SurfaceLattice surface_lattice(const CorrectedLinks& known, std::span<const Vertex> kept, double row_stretch,
                                const RowGuide& guide);
 
