@@ -25,6 +25,11 @@ struct PeriodicLink {
     for (std::size_t k = 0; k < K; ++k) distance[k] += std::clamp<double>(corrections[k], -most, most);
   }
 
+  // Follows coordinates of both ends that have been moved by these.
+  void move(const std::array<double, K>& here, const std::array<double, K>& there) {
+    for (std::size_t k = 0; k < K; ++k) distance[k] += here[k] - seen_along(there, k);
+  }
+
   // The same, seen from the neighbour.
   PeriodicLink reversed(std::int32_t from) const {
     PeriodicLink back;

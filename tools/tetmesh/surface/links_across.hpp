@@ -20,6 +20,9 @@ class LinksAcross {
   std::span<const SurfaceLink> of(std::int32_t triangle) const {
     return std::span(links_).subspan(offsets_[triangle], offsets_[triangle + 1] - offsets_[triangle]);
   }
+  std::span<SurfaceLink> of(std::int32_t triangle) {
+    return std::span(links_).subspan(offsets_[triangle], offsets_[triangle + 1] - offsets_[triangle]);
+  }
 
  private:
   std::vector<std::int64_t> offsets_;  // triangles + 1

@@ -15,6 +15,7 @@
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/fields/lattice_proposals.hpp"
 #include "tools/tetmesh/fields/lattice_steps.hpp"
+#include "tools/tetmesh/fields/whole_rows.hpp"
 #include "tools/tetmesh/surface/links_across.hpp"
 #include "tools/tetmesh/surface/row_ends.hpp"
 #include "tools/tetmesh/surface/row_joining.hpp"
@@ -29,6 +30,8 @@ constexpr double edge_weight = 20, point_weight = 5;
 // How strongly the guide pulls where it is certain; at 20 and 100 there are as many hexes. Where the guide's rows would
 // change the distance between two triangles by more than the second number, in sizes, they do not fit.
 constexpr double guide_weight = 5, most_guide_change = 0.25;
+// Where features ask a triangle for coordinates that agree by more, from 0 to 1, they hold it.
+constexpr double least_accord = 0.9;
 // Where the nodes that the guide asks agree by less, from 0 to 1, its coordinates do not change distances.
 constexpr double least_agreement_of_guide = 0.5;
 constexpr fields::DiffusionLimits diffusion_limits{200, 1e-3};
@@ -197,6 +200,8 @@ class LatticeMaker {
     if (guide.coordinates) {
       const std::vector<Phases> known = follow(guide);
       measure_distances(known, least_agreement_of_guide);
+    } else {
+      round_rows();
     }
     PhaseSolver solver(links_, across_, degrees_, targets_);
     phases_ = solver.diffused(pulls_);
@@ -237,6 +242,7 @@ class LatticeMaker {
   void weigh_links();
   void make_anchors(std::span<const Vertex> kept);
   void pull(std::int32_t f, std::size_t axis, double weight, double coordinate);
+  void round_rows();
   std::vector<Phases> follow(const RowGuide& guide);
   void measure_distances(const std::vector<Phases>& phases, double least_agreement);
   Phases view_of_neighbours(std::int32_t f) const;
@@ -252,7 +258,7 @@ class LatticeMaker {
   FieldWalker walker_;
   double greatest_size_;
   SurfaceLinks links_;
-  const LinksAcross& across_;
+  LinksAcross across_;
   std::vector<double> degrees_;               // of each triangle: the sum of the weights of its links
   std::vector<std::array<double, 2>> pulls_;  // of features on each number of a triangle: their sum
   std::vector<Phases> targets_;               // the numbers that features ask for, each times its pull
@@ -294,6 +300,28 @@ void LatticeMaker::make_anchors(std::span<const Vertex> kept) {
         pull(f, k, point_weight, coordinate);
     }
   }
+}
+
+// Changes distances so that whole numbers of rows lie between features.
+void LatticeMaker::round_rows() {
+  const std::size_t count = phases_.size();
+  std::vector<std::int64_t> offsets{0};
+  std::vector<fields::PeriodicLink<2>> links;
+  fields::HeldCoordinates<2> held(count);
+  for (std::size_t f = 0; f < count; ++f) {
+    for_each_link(links_, across_, static_cast<std::int32_t>(f),
+                  [&](const SurfaceLink& link) { links.push_back(link); });
+    offsets.push_back(static_cast<std::int64_t>(links.size()));
+    for (std::size_t k = 0; k < 2; ++k)
+      if (std::abs(targets_[f][k]) > least_accord * pulls_[f][k]) held[f][k] = fields::coordinate_of(targets_[f][k]);
+  }
+  const auto shifts = fields::whole_row_shifts<2>({offsets, links}, held);
+  if (shifts.empty()) return;
+  links_.change_distances([&](geometry::HalfEdge h, SurfaceLink& link) {
+    link.move(shifts[geometry::triangle_of(h)], shifts[link.neighbour]);
+  });
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(count); ++f)
+    for (SurfaceLink& link : across_.of(f)) link.move(shifts[f], shifts[link.neighbour]);
 }
 
 // Pulls every triangle to the guide's coordinates, which it returns.

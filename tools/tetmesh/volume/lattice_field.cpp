@@ -10,6 +10,7 @@
 #include "tools/tetmesh/fields/lattice_steps.hpp"
 #include "tools/tetmesh/fields/layers_across.hpp"
 #include "tools/tetmesh/fields/periodic_numbers.hpp"
+#include "tools/tetmesh/fields/whole_rows.hpp"
 
 namespace hexpipe::tetmesh::volume {
 namespace {
@@ -21,6 +22,8 @@ constexpr double anchor_weight = 20;
 // the more, the stronger, up to full strength at 1. Below the threshold it holds it weakly.
 constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
 constexpr int smoothing_sweeps = 20;
+// Coordinates that are held by this share of the full strength count as whole numbers of rows apart.
+constexpr double least_hold = 0.5;
 // A link along the surface is no step up to the first length, and one step from the second to the third, in sizes.
 // Between the first and the second it is not decided.
 constexpr double no_step = 0.2, least_step = 0.75, greatest_step = 1.7;
@@ -60,10 +63,9 @@ class LatticeSolver {
     for_each_node([&](std::size_t i) { measure_degree(i); });
     correct_curl();
     views_.resize(links_.size());
-    for_each_node([&](std::size_t i) {
-      for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l) views_[l] = View(links_[l]);
-    });
+    make_views();
     for (std::size_t i = 0; i < nodes_.surface.size(); ++i) make_anchors(i);
+    round_rows();
     diffuse();
     for (Phases& phases : phases_)
       for (fields::Complex& phase : phases) phase = fields::unit(phase);
@@ -80,7 +82,13 @@ class LatticeSolver {
   void measure_degree(std::size_t i);
   // Whether a node of the surface is a point of the lattice.
   bool is_held(std::size_t i) const { return held_.empty() || held_[i]; }
+  void make_views() {
+    for_each_node([&](std::size_t i) {
+      for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l) views_[l] = View(links_[l]);
+    });
+  }
   void make_anchors(std::size_t i);
+  void round_rows();
   void correct_curl();
   fields::Loops triangles() const;
   void add_steps_on_surface(fields::Loops& loops) const;
@@ -229,6 +237,22 @@ void LatticeSolver::make_anchors(std::size_t i) {
     if (node.kind == SurfaceNode::Kind::smooth && std::abs(dot(frames_[i][k], node.normal)) > normal_cosine) trust = 1;
     anchors_[i][k] = anchor_weight * trust * degree_[i];
   }
+}
+
+// Changes distances so that whole numbers of rows lie between what holds the lattice well.
+void LatticeSolver::round_rows() {
+  fields::HeldCoordinates<3> held(nodes_.size());
+  for_each_node([&](std::size_t i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (anchors_[i][k] >= least_hold * anchor_weight * degree_[i]) held[i][k] = 0;
+  });
+  const auto shifts = fields::whole_row_shifts<3>({nodes_.offsets, links_.all()}, held);
+  if (shifts.empty()) return;
+  for_each_node([&](std::size_t i) {
+    for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l)
+      links_[l].move(shifts[i], shifts[links_[l].neighbour]);
+  });
+  make_views();
 }
 
 Phases LatticeSolver::view_of_neighbours(const std::vector<Phases>& phases, std::size_t i) const {

@@ -31,6 +31,8 @@ class LatticeLinks {
   LatticeLink& operator[](std::int64_t link) { return links_[link]; }
   const LatticeLink& operator[](std::int64_t link) const { return links_[link]; }
   std::size_t size() const { return links_.size(); }
+  // Node after node.
+  std::span<const LatticeLink> all() const { return links_; }
 
   // The number of the link, or no_index.
   std::int64_t between(std::int32_t from, std::int32_t to) const;
