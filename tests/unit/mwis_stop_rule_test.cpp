@@ -68,9 +68,24 @@ TEST(StopRule, JudgesEarlierWhereAllOfTheGraphIsSeenForNothing) {
   EXPECT_FALSE(rule.is_done()) << "not judged so early";
   rule.record(40, 1003, 4, true);
   EXPECT_TRUE(rule.is_done()) << "nothing since 20";
-  rule.record(40, 1010, 4, true);
+  rule.record(60, 1010, 4, true);
   rule.record(99, 1010, 4, true);
   EXPECT_FALSE(rule.is_done()) << "it has gained 10";
+}
+
+TEST(StopRule, JudgesEarlierWhereAFewGainsHaveEnded) {
+  const auto ends_at = [](std::int64_t gain, double last_gain_at) {
+    StopRule rule(10, 100, 200);
+    rule.record(0, 1000);
+    for (double work = 5; work <= 200; work += 5) {
+      rule.record(work, work < last_gain_at ? 1000 : 1000 + gain, 1000, work >= 30);
+      if (rule.is_done()) return work;
+    }
+    return 0.0;
+  };
+  EXPECT_EQ(ends_at(50, 10), 30);    // all seen
+  EXPECT_EQ(ends_at(50, 20), 40);    // nothing in the last half
+  EXPECT_EQ(ends_at(200, 20), 100);  // too much gained to be sure
 }
 
 TEST(StopRule, NeverEndsWithoutALeastGain) {

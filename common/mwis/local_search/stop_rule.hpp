@@ -12,8 +12,10 @@ namespace hexpipe::mwis::local_search {
 class StopRule {
  public:
   //   least_gain  what the last half of the work must gain, in units of weight; 0: the search never ends
-  //   least_work  nothing is judged before this, unless the search has seen all of the graph and all its gains together
-  //               are less than least_gain
+  //   least_work  nothing is judged before this, unless the search has seen all of the graph, and all its gains
+  //   together
+  //               are less than least_gain, or, if most_times is known, less than ten times that and none came in the
+  //               last half of the work
   //   whole_work  before this, the search has seen a sample of the graph. It is judged by what it would gain on the way
   //               to whole_work if it went on as in its last half. While all gains together are less than least_gain,
   //               that way goes to record()'s `most_times` of the present work at most.
@@ -21,7 +23,8 @@ class StopRule {
       : least_gain_(least_gain), least_work_(least_work), whole_work_(whole_work) {}
 
   // Takes the total work done and the weight reached; neither decreases. `most_times`: after so many times this work
-  // the search would have seen enough of the graph. `has_seen_all`: it has gone over the whole graph once.
+  // the search would have seen enough of the graph, if that is known. `has_seen_all`: it has gone over the whole graph
+  // once.
   void record(double work, std::int64_t weight, double most_times = std::numeric_limits<double>::infinity(),
               bool has_seen_all = false);
   bool is_done() const;

@@ -29,7 +29,7 @@ namespace {
 constexpr double edge_weight = 20, point_weight = 5;
 // How strongly the guide pulls where it is certain; at 20 and 100 there are as many hexes. Where the guide's rows would
 // change the distance between two triangles by more than the second number, in sizes, they do not fit.
-constexpr double guide_weight = 5, most_guide_change = 0.25;
+constexpr double guide_weight = 5, most_guide_change = 0.5;
 // Where features ask a triangle for coordinates that agree by more, from 0 to 1, they hold it.
 constexpr double least_accord = 0.9;
 // Where the nodes that the guide asks agree by less, from 0 to 1, its coordinates do not change distances.
