@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "common/mwis/local_search/annealing.hpp"
 
 namespace hexpipe {
@@ -74,11 +76,11 @@ TEST(StopRule, JudgesEarlierWhereAllOfTheGraphIsSeenForNothing) {
 }
 
 TEST(StopRule, JudgesEarlierWhereAFewGainsHaveEnded) {
-  const auto ends_at = [](std::int64_t gain, double last_gain_at) {
+  const auto ends_at = [](std::int64_t gain, double last_gain_at, double most_times = 1000) {
     StopRule rule(10, 100, 200);
     rule.record(0, 1000);
     for (double work = 5; work <= 200; work += 5) {
-      rule.record(work, work < last_gain_at ? 1000 : 1000 + gain, 1000, work >= 30);
+      rule.record(work, work < last_gain_at ? 1000 : 1000 + gain, most_times, work >= 30);
       if (rule.is_done()) return work;
     }
     return 0.0;
@@ -86,6 +88,7 @@ TEST(StopRule, JudgesEarlierWhereAFewGainsHaveEnded) {
   EXPECT_EQ(ends_at(50, 10), 30);    // all seen
   EXPECT_EQ(ends_at(50, 20), 40);    // nothing in the last half
   EXPECT_EQ(ends_at(200, 20), 100);  // too much gained to be sure
+  EXPECT_EQ(ends_at(50, 20, std::numeric_limits<double>::infinity()), 100) << "a small graph gains after pauses";
 }
 
 TEST(StopRule, NeverEndsWithoutALeastGain) {

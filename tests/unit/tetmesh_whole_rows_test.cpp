@@ -96,7 +96,7 @@ double miss(double number) {
   return std::abs(number - std::round(number));
 }
 
-// The sums of the diffusion end at a residual of 3e-4.
+// Of what is spread by iterations.
 constexpr double tolerance = 5e-3;
 
 TEST(WholeRows, StretchEvenlyBetweenTwoSides) {
@@ -112,6 +112,85 @@ TEST(WholeRows, StretchEvenlyBetweenTwoSides) {
       for (std::size_t c = 0; c <= 6; ++c) EXPECT_NEAR(plane.shift(c, row, 1), 0, 1e-9);
     }
   }
+}
+
+TEST(WholeRows, StretchEvenlyOverManyColumnsToo) {
+  Plane plane(std::vector<double>(81, 1.005), 5);
+  plane.hold_column(0);
+  plane.hold_column(81);
+  plane.solve();
+  ASSERT_TRUE(plane.has_moved());
+  EXPECT_NEAR(plane.between(0, 81, 2), 81, 1e-9);
+  for (std::size_t c = 0; c < 81; ++c) EXPECT_NEAR(plane.between(c, c + 1, 2), 1, 2e-3);
+}
+
+// Held nodes in one long line are joined in the worst order.
+TEST(WholeRows, TakeNoTimeForALongSet) {
+  Plane plane(std::vector<double>(100000, 1), 1);
+  for (std::size_t c = 0; c <= 100000; ++c) plane.hold(c, 0, 0);
+  plane.solve();
+  EXPECT_FALSE(plane.has_moved());
+}
+
+// Three axes, which each node of a line of four by four nodes knows in an order of its own.
+TEST(WholeRows, FollowAxesThatChangeTheirOrder) {
+  constexpr std::size_t length = 7, across = 16;
+  static constexpr std::array<std::array<std::uint8_t, 3>, 6> orders{
+      {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+  Random random(3, 0);
+  std::vector<std::array<std::uint8_t, 3>> axes;  // of each node: which of its axes is each axis of space
+  std::vector<std::array<bool, 3>> flipped;
+  for (std::size_t i = 0; i < (length + 1) * across; ++i) {
+    axes.push_back(orders[random.below(6)]);
+    flipped.push_back({random.below(2) == 1, random.below(2) == 1, random.below(2) == 1});
+  }
+  std::vector<std::int64_t> offsets{0};
+  std::vector<PeriodicLink<3>> links;
+  HeldCoordinates<3> held(axes.size());
+  const auto place = [&](std::size_t i) { return std::array<std::size_t, 3>{i / across, i % across / 4, i % 4}; };
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    for (std::size_t j = 0; j < axes.size(); ++j) {
+      std::array<double, 3> back;
+      double steps = 0;
+      for (std::size_t d = 0; d < 3; ++d) {
+        back[d] = static_cast<double>(place(i)[d]) - static_cast<double>(place(j)[d]);
+        steps += std::abs(back[d]);
+      }
+      if (steps != 1) continue;
+      back[0] *= 0.9;  // 6.3 from end to end
+      PeriodicLink<3>& link = links.emplace_back();
+      link.neighbour = static_cast<std::int32_t>(j);
+      link.weight = 1;
+      for (std::size_t d = 0; d < 3; ++d) {
+        link.axis[axes[i][d]] = axes[j][d];
+        link.flipped[axes[i][d]] = flipped[i][d] != flipped[j][d];
+        link.distance[axes[i][d]] = flipped[i][d] ? -back[d] : back[d];
+      }
+    }
+    offsets.push_back(static_cast<std::int64_t>(links.size()));
+    if (place(i)[0] == 0 || place(i)[0] == length) held[i][axes[i][0]] = 0;
+  }
+  const auto shifts = whole_row_shifts<3>({offsets, links}, held);
+  ASSERT_EQ(shifts.size(), axes.size());
+  const auto shift = [&](std::size_t i, std::size_t d) {
+    return flipped[i][d] ? -shifts[i][axes[i][d]] : shifts[i][axes[i][d]];
+  };
+  for (std::size_t i = 0; i < across; ++i) {
+    EXPECT_NEAR(0.9 * length + shift(i + length * across, 0) - shift(i, 0), 6, 1e-9);
+    for (std::size_t c = 0; c < length; ++c)
+      EXPECT_NEAR(0.9 + shift(i + (c + 1) * across, 0) - shift(i + c * across, 0), 6.0 / length, tolerance);
+    EXPECT_NEAR(shift(i + 3 * across, 1), 0, 1e-9);
+  }
+  // Links moved in both directions stay each other's reverse.
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    for (std::int64_t l = offsets[i]; l < offsets[i + 1]; ++l) {
+      PeriodicLink<3> link = links[l];
+      link.move(shifts[i], shifts[link.neighbour]);
+      PeriodicLink<3> back = links[l].reversed(static_cast<std::int32_t>(i));
+      back.move(shifts[links[l].neighbour], shifts[i]);
+      const PeriodicLink<3> there = link.reversed(static_cast<std::int32_t>(i));
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(there.distance[k], back.distance[k], 1e-12);
+    }
 }
 
 TEST(WholeRows, KeepWhatIsWhole) {

@@ -12,10 +12,9 @@ namespace hexpipe::mwis::local_search {
 class StopRule {
  public:
   //   least_gain  what the last half of the work must gain, in units of weight; 0: the search never ends
-  //   least_work  nothing is judged before this, unless the search has seen all of the graph, and all its gains
-  //   together
-  //               are less than least_gain, or, if most_times is known, less than ten times that and none came in the
-  //               last half of the work
+  //   least_work  nothing is judged before this, unless the search has seen all of the graph and has gained less than
+  //               least_gain. If most_times is known, less than ten times that is enough where the last half of the
+  //               work gained nothing.
   //   whole_work  before this, the search has seen a sample of the graph. It is judged by what it would gain on the way
   //               to whole_work if it went on as in its last half. While all gains together are less than least_gain,
   //               that way goes to record()'s `most_times` of the present work at most.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -29,41 +30,46 @@ struct SeenCoordinate {
 // Sets of coordinates that are whole numbers apart.
 class WholeSets {
  public:
-  explicit WholeSets(std::size_t coordinates);
-  // What contradicts earlier calls is ignored: rows end there.
-  void join(std::int32_t coordinate, const SeenCoordinate& seen);
+  explicit WholeSets(std::size_t coordinates) : parents_(coordinates), sizes_(coordinates, 1) {
+    for (std::size_t i = 0; i < coordinates; ++i) parents_[i].from = static_cast<std::int32_t>(i);
+  }
+
   // From one coordinate of its set, which is the same one for all of them.
-  SeenCoordinate of(std::int32_t coordinate);
+  SeenCoordinate of(std::int32_t coordinate) {
+    way_.clear();
+    for (std::int32_t i = coordinate; parents_[i].from != i; i = parents_[i].from) way_.push_back(i);
+    // All on the way see the root from now on. The last one does already.
+    for (std::size_t i = way_.size(); i-- > 1;)
+      parents_[way_[i - 1]] = parents_[way_[i - 1]].through(parents_[way_[i]]);
+    return parents_[coordinate];
+  }
+
+  // What contradicts earlier calls is ignored: rows end there.
+  void join(std::int32_t coordinate, const SeenCoordinate& seen) {
+    const SeenCoordinate own = of(coordinate), other = of(seen.from);
+    if (own.from == other.from) return;
+    // The set of this coordinate, as seen from the other set.
+    const SeenCoordinate joint = own.back(coordinate).through(seen.through(other));
+    const bool is_larger = sizes_[own.from] > sizes_[other.from];
+    const auto [root, leaf] = is_larger ? std::pair(own.from, other.from) : std::pair(other.from, own.from);
+    parents_[leaf] = is_larger ? joint.back(own.from) : joint;
+    sizes_[root] += sizes_[leaf];
+  }
 
  private:
   std::vector<SeenCoordinate> parents_;
+  std::vector<std::int32_t> sizes_;  // of the sets of roots
+  std::vector<std::int32_t> way_;
 };
-
-WholeSets::WholeSets(std::size_t coordinates) : parents_(coordinates) {
-  for (std::size_t i = 0; i < coordinates; ++i) parents_[i].from = static_cast<std::int32_t>(i);
-}
-
-SeenCoordinate WholeSets::of(std::int32_t coordinate) {
-  SeenCoordinate seen = parents_[coordinate];
-  while (parents_[seen.from].from != seen.from) {
-    seen = seen.through(parents_[seen.from]);
-    parents_[coordinate] = seen;
-  }
-  return seen;
-}
-
-void WholeSets::join(std::int32_t coordinate, const SeenCoordinate& seen) {
-  const SeenCoordinate own = of(coordinate), other = of(seen.from);
-  if (own.from == other.from) return;
-  // The set of this coordinate, as seen from the other set.
-  parents_[own.from] = own.back(coordinate).through(seen.through(other));
-}
 
 // What an offset that is not whole costs, in the unit of squared stretches: rows that end cost more than rows that
 // stretch.
 constexpr double price_of_misses = 20;
 constexpr double most_stretch = 0.35;  // of what lies between two sets
+constexpr double shortest_gap = 1e-6;  // between sets, in sizes
 constexpr int most_rounds = 10;
+// A set asks so many of the others where it might go, those that it sees best.
+constexpr std::size_t most_asked = 32;
 constexpr double least_saving = 1e-9;
 
 // What a set sees of another.
@@ -84,10 +90,11 @@ class Shifter {
       const SeenCoordinate seen{gap.first, gap.flipped, coordinate_of(gap.offset)};
       const SeenCoordinate back = seen.back(gap.second);
       // Links that contradict each other, because a singularity is between, count less.
-      const double weight = std::abs(gap.offset), length = gap.length / gap.weight;
+      const double weight = std::abs(gap.offset), length = std::max(gap.length / gap.weight, shortest_gap);
       sights_[gap.second].push_back({gap.first, gap.flipped, seen.offset, weight, length});
       sights_[gap.first].push_back({gap.second, gap.flipped, back.offset, weight, length});
     }
+    for (std::vector<Sight>& sights : sights_) std::ranges::stable_sort(sights, std::ranges::greater(), &Sight::weight);
   }
 
   std::vector<double> solve() {
@@ -99,7 +106,8 @@ class Shifter {
  private:
   void place_all();
   bool move_all();
-  double cost_of(std::size_t set, double shift) const;
+  // Or that much, if it costs more.
+  double cost_of(std::size_t set, double shift, double most) const;
   double best_of(std::size_t set) const;
   // The other's shift, as this set sees it.
   double shift_of(const Sight& sight) const { return sight.flipped ? -shifts_[sight.other] : shifts_[sight.other]; }
@@ -139,10 +147,11 @@ bool Shifter::move_all() {
   return has_moved;
 }
 
-double Shifter::cost_of(std::size_t set, double shift) const {
+double Shifter::cost_of(std::size_t set, double shift, double most) const {
   double sum = 0;
   for (const Sight& sight : sights_[set]) {
     if (!is_placed_[sight.other]) continue;
+    if (sum >= most) return most;
     const double change = shift - shift_of(sight);
     const double miss = sight.offset + change - std::round(sight.offset + change);
     const bool is_too_far = std::abs(change) > most_stretch * sight.length;
@@ -152,17 +161,20 @@ double Shifter::cost_of(std::size_t set, double shift) const {
 }
 
 double Shifter::best_of(std::size_t set) const {
-  double best = shifts_[set], least = cost_of(set, best);
+  double best = shifts_[set], least = cost_of(set, best, HUGE_VAL);
   const auto take = [&](double shift) {
-    const double cost = cost_of(set, shift);
+    const double cost = cost_of(set, shift, least);
     if (cost >= least - least_saving) return;
     least = cost;
     best = shift;
   };
   take(0);
-  for (const Sight& sight : sights_[set])
-    if (is_placed_[sight.other])
-      for (const int whole : {-1, 0, 1}) take(shift_of(sight) - sight.offset + whole);
+  std::size_t asked = 0;
+  for (const Sight& sight : sights_[set]) {
+    if (!is_placed_[sight.other]) continue;
+    if (++asked > most_asked) break;
+    for (const int whole : {-1, 0, 1}) take(shift_of(sight) - sight.offset + whole);
+  }
   return best;
 }
 
@@ -187,6 +199,7 @@ template <std::size_t K>
 class RowRounding {
  public:
   using Shifts = std::vector<std::array<double, K>>;
+
   RowRounding(const LinkedNodes<K>& nodes, const HeldCoordinates<K>& held)
       : nodes_(nodes),
         held_(held),
@@ -215,9 +228,7 @@ class RowRounding {
   static constexpr double nearly_whole = 0.15;
   // Fewer held coordinates make no set. They lie where features bend, and hold what is near to them.
   static constexpr std::int32_t least_size = 4;
-  // How much more strongly than all its links a set holds a number.
-  static constexpr double hold = 1000;
-  static constexpr DiffusionLimits limits{100, 3e-4};
+  static constexpr DiffusionLimits limits{150, 3e-3};
 
   static std::int32_t number_of(std::size_t node, std::size_t k) { return static_cast<std::int32_t>(K * node + k); }
   static SeenCoordinate seen_by(const PeriodicLink<K>& link, std::size_t k) {
@@ -265,7 +276,7 @@ class RowRounding {
     }
   }
 
-  // Every coordinate is seen from the set that fewest links lead to.
+  // Every coordinate is seen from the set that is fewest links away.
   void spread() {
     std::vector<std::int32_t> queue;
     for (std::size_t i = 0; i < nodes_.size(); ++i)
@@ -312,38 +323,44 @@ class RowRounding {
     return joined(std::move(gaps));
   }
 
-  // The shifts of sets, spread over what lies between them so that it stretches evenly. A number is i times the shift:
-  // where coordinates run against each other, its conjugate is that of the shift turned round.
+  // The set that holds a coordinate, or no_index.
+  std::int32_t holder_of(std::size_t i, std::size_t k) {
+    return held_[i][k] ? set_of_[sets_.of(number_of(i, k)).from] : no_index;
+  }
+
+  // The shifts of sets, spread over what lies between them so that it stretches evenly. A shift is the imaginary part
+  // of a number, for where coordinates run against each other, that of the conjugate is the shift turned round.
   Shifts spread_out(const std::vector<double>& of_sets) {
     std::vector<double> degree(nodes_.size());
-    std::vector<std::array<double, K>> holds(nodes_.size());
-    PeriodicNumbers<K> held(nodes_.size());
+    std::vector<std::array<bool, K>> is_fixed(nodes_.size());
+    PeriodicNumbers<K> fixed(nodes_.size());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       for (const PeriodicLink<K>& link : nodes_.links_of(i)) degree[i] += link.weight;
       degree[i] = std::max(degree[i], 1e-9);
       for (std::size_t k = 0; k < K; ++k) {
-        if (!held_[i][k] || way_[number_of(i, k)] > 0) continue;
-        const SeenCoordinate& seen = seen_[number_of(i, k)];
-        if (seen.from == no_index) continue;
-        holds[i][k] = hold * degree[i];
-        held[i][k] = Complex(0, holds[i][k] * seen.turned(of_sets[seen.from]));
+        const std::int32_t set = holder_of(i, k);
+        is_fixed[i][k] = set != no_index;
+        if (set != no_index) fixed[i][k] = Complex(0, seen_[number_of(i, k)].turned(of_sets[set]));
       }
     }
-    const PeriodicNumbers<K> numbers = diffused<K>(
-        std::move(held), limits, [&](const auto& body) { for_each_node(body); },
-        [&](std::size_t i, std::size_t k) { return degree[i] + holds[i][k]; },
-        [&](const PeriodicNumbers<K>& all, std::size_t i) {
-          std::array<Complex, K> sum{};
-          for (const PeriodicLink<K>& link : nodes_.links_of(i))
-            for (std::size_t k = 0; k < K; ++k) {
-              const Complex& there = all[link.neighbour][link.axis[k]];
-              sum[k] += link.weight * (link.flipped[k] ? std::conj(there) : there);
-            }
-          return sum;
-        });
+    // Nothing pulls at what is fixed.
+    const auto pull = [&](const PeriodicNumbers<K>& numbers, std::size_t i) {
+      std::array<Complex, K> sum{};
+      for (const PeriodicLink<K>& link : nodes_.links_of(i))
+        for (std::size_t k = 0; k < K; ++k) {
+          const Complex& there = numbers[link.neighbour][link.axis[k]];
+          if (!is_fixed[i][k]) sum[k] += link.weight * (link.flipped[k] ? std::conj(there) : there);
+        }
+      return sum;
+    };
+    PeriodicNumbers<K> pulls(nodes_.size());
+    for_each_node([&](std::size_t i) { pulls[i] = pull(fixed, i); });
+    const PeriodicNumbers<K> others = diffused<K>(
+        std::move(pulls), limits, [&](const auto& body) { for_each_node(body); },
+        [&](std::size_t i, std::size_t) { return degree[i]; }, pull);
     Shifts shifts(nodes_.size());
     for_each_node([&](std::size_t i) {
-      for (std::size_t k = 0; k < K; ++k) shifts[i][k] = numbers[i][k].imag();
+      for (std::size_t k = 0; k < K; ++k) shifts[i][k] = (fixed[i][k] + others[i][k]).imag();
     });
     return shifts;
   }

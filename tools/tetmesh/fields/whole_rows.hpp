@@ -24,7 +24,7 @@ namespace hexpipe::tetmesh::fields {
 // go both ways.
 template <std::size_t K>
 struct LinkedNodes {
-  std::span<const std::int64_t> offsets;  // nodes + 1
+  std::span<const std::int64_t> offsets;  // nodes + 1, so one at least
   std::span<const PeriodicLink<K>> links;
 
   std::size_t size() const { return offsets.size() - 1; }
@@ -39,7 +39,7 @@ template <std::size_t K>
 using HeldCoordinates = std::vector<std::array<std::optional<double>, K>>;
 
 // What to add to the coordinates of all nodes, so that those that are held are whole numbers apart, in the unit of the
-// distances of links. Nothing where nothing is to be gained.
+// distances of links. Empty where nothing is to be gained.
 template <std::size_t K>
 std::vector<std::array<double, K>> whole_row_shifts(const LinkedNodes<K>& nodes, const HeldCoordinates<K>& held);
 
@@ -53,8 +53,8 @@ struct SetGap {
 };
 
 // By how much to move the coordinates of each set, so that the offsets between them become whole, and as little as
-// possible. Where what lies between two sets would stretch by more than a third, rows end as before. Sets are given by
-// how many coordinates they have.
+// possible. Where what lies between two sets would stretch by more than about a third, rows end as before. Sets are
+// given by how many coordinates they have. Weights of gaps are above 0.
 std::vector<double> whole_shifts(std::span<const std::int32_t> set_sizes, std::span<const SetGap> gaps);
 
 }  // namespace hexpipe::tetmesh::fields

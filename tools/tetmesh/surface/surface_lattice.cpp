@@ -27,9 +27,8 @@ namespace {
 // How strongly a feature edge, and a point on it, pull the numbers of a triangle, relative to all links of the
 // triangle. A point_weight from 2 to 20 changes the share of the volume in hexes by up to 0.4 % on larger models.
 constexpr double edge_weight = 20, point_weight = 5;
-// How strongly the guide pulls where it is certain; at 20 and 100 there are as many hexes. Where the guide's rows would
-// change the distance between two triangles by more than the second number, in sizes, they do not fit.
-constexpr double guide_weight = 5, most_guide_change = 0.5;
+// How strongly the guide pulls where it is certain; at 20 and 100 there are as many hexes.
+constexpr double guide_weight = 5;
 // Where features ask a triangle for coordinates that agree by more, from 0 to 1, they hold it.
 constexpr double least_accord = 0.9;
 // Where the nodes that the guide asks agree by less, from 0 to 1, its coordinates do not change distances.
@@ -346,8 +345,7 @@ void LatticeMaker::measure_distances(const std::vector<Phases>& phases, double l
     const std::int32_t f = geometry::triangle_of(h);
     for (std::size_t k = 0; k < 2; ++k) {
       if (std::min(std::abs(phases[f][k]), std::abs(phases[link.neighbour][link.axis[k]])) < least_agreement) continue;
-      const double between = coordinates[f][k] + jumps[h][k] - link.seen_along(coordinates[link.neighbour], k);
-      if (std::abs(between - link.distance[k]) < most_guide_change) link.distance[k] = between;
+      link.distance[k] = coordinates[f][k] + jumps[h][k] - link.seen_along(coordinates[link.neighbour], k);
     }
   });
 }
@@ -382,7 +380,7 @@ void LatticeMaker::reach_the_rest() {
   }
 }
 
-// By the distances to the neighbours, which correct_curl has changed.
+// By the distances to the neighbours, as they have been changed.
 Steps LatticeMaker::steps_of(std::int32_t f) const {
   fields::StepFit<2> fit;
   for (geometry::HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {

@@ -279,7 +279,7 @@ void LatticeSolver::smooth() {
       [&](std::size_t i) { return degree_[i]; }, [&](std::size_t i, std::size_t k) { return anchors_[i][k]; });
 }
 
-// By the distances to the neighbours, which correct_curl has changed.
+// By the distances to the neighbours, as they have been changed.
 std::array<Vec3, 3> LatticeSolver::steps_of(std::size_t i) const {
   Eigen::Matrix3d axes;
   for (int k = 0; k < 3; ++k) {
