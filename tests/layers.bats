@@ -27,7 +27,7 @@ for p in points:
 for f in faces:
     print(3, *f)
 PYTHON
-  tetmesh pipe.off --size 0.35 --tags-by-angle --name 1=inlet --name 2=outlet --name 3=wall | findhex | buildgraph |
+  tetmesh pipe.off --size 0.38 --tags-by-angle --name 1=inlet --name 2=outlet --name 3=wall | findhex | buildgraph |
     initsol --iterations 5000 -o pipe.tar
 }
 
