@@ -156,7 +156,7 @@ PYTHON
 # bats test_tags=optimized
 @test "--mend finite-volumes leaves less that checkMesh counts as wrong; it is the default for OpenFOAM alone" {
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
-  tetmesh "$DATA/bracket.stl" --size 4 | findhex | buildgraph | initsol --iterations 20000 -o part.tar
+  tetmesh "$DATA/bracket.stl" --size 3.5 | findhex | buildgraph | initsol --iterations 20000 -o part.tar
   assemble part.tar --stats default.json -o default.vtu
   assemble part.tar --mend quality -o quality.vtu
   assert_same_bytes default.vtu quality.vtu

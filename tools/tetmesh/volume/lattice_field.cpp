@@ -246,6 +246,14 @@ void LatticeSolver::round_rows() {
     for (std::size_t k = 0; k < 3; ++k)
       if (anchors_[i][k] >= least_hold * anchor_weight * degree_[i]) held[i][k] = 0;
   });
+  // A face is a layer up to its border.
+  for (const Triangle& triangle : nodes_.triangles) {
+    const Vec3& a = nodes_.points[triangle[0]];
+    const Vec3 across = cross(nodes_.points[triangle[1]] - a, nodes_.points[triangle[2]] - a);
+    for (const Vertex v : triangle)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (std::abs(dot(frames_[v][k], across)) > normal_cosine * norm(across)) held[v][k] = 0;
+  }
   const auto shifts = fields::whole_row_shifts<3>({nodes_.offsets, links_.all()}, held);
   if (shifts.empty()) return;
   for_each_node([&](std::size_t i) {
