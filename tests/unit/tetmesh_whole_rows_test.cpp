@@ -40,6 +40,11 @@ class Plane {
   void hold_column(std::size_t column, double coordinate = 0) {
     for (std::size_t row = 0; row < rows_; ++row) hold(column, row, 0, coordinate);
   }
+  // The first and the last column.
+  void hold_ends() {
+    hold_column(0);
+    hold_column(columns_.size());
+  }
 
   void solve() {
     std::vector<std::int64_t> offsets{0};
@@ -102,8 +107,7 @@ constexpr double tolerance = 5e-3;
 TEST(WholeRows, StretchEvenlyBetweenTwoSides) {
   for (const std::uint64_t seed : {0, 1, 2, 3}) {
     Plane plane(std::vector<double>(6, 0.9), 7, seed);
-    plane.hold_column(0);
-    plane.hold_column(6);
+    plane.hold_ends();
     plane.solve();
     ASSERT_TRUE(plane.has_moved());
     for (std::size_t row = 0; row < 7; ++row) {
@@ -116,8 +120,7 @@ TEST(WholeRows, StretchEvenlyBetweenTwoSides) {
 
 TEST(WholeRows, StretchEvenlyOverManyColumnsToo) {
   Plane plane(std::vector<double>(81, 1.005), 5);
-  plane.hold_column(0);
-  plane.hold_column(81);
+  plane.hold_ends();
   plane.solve();
   ASSERT_TRUE(plane.has_moved());
   EXPECT_NEAR(plane.between(0, 81, 2), 81, 1e-9);
@@ -195,8 +198,7 @@ TEST(WholeRows, FollowAxesThatChangeTheirOrder) {
 
 TEST(WholeRows, KeepWhatIsWhole) {
   Plane plane(std::vector<double>(8, 0.75), 7);
-  plane.hold_column(0);
-  plane.hold_column(8);
+  plane.hold_ends();
   plane.solve();
   EXPECT_FALSE(plane.has_moved());
 }

@@ -48,6 +48,11 @@ bool is_through(const Vec3& axis, const Vec3& normal, const Vec3& other_normal) 
   return dot(normal, other_normal) < -normal_cosine && std::abs(dot(axis, normal)) > normal_cosine;
 }
 
+// Whether the axis is along a normal, of any length.
+bool is_along(const Vec3& axis, const Vec3& normal) {
+  return std::abs(dot(axis, normal)) > normal_cosine * norm(normal);
+}
+
 class LatticeSolver {
  public:
   LatticeSolver(const FieldNodes& nodes, const std::vector<fields::Frame>& frames, const std::vector<bool>& held)
@@ -62,7 +67,6 @@ class LatticeSolver {
   LatticeField solve() {
     for_each_node([&](std::size_t i) { measure_degree(i); });
     correct_curl();
-    views_.resize(links_.size());
     make_views();
     for (std::size_t i = 0; i < nodes_.surface.size(); ++i) make_anchors(i);
     round_rows();
@@ -83,6 +87,7 @@ class LatticeSolver {
   // Whether a node of the surface is a point of the lattice.
   bool is_held(std::size_t i) const { return held_.empty() || held_[i]; }
   void make_views() {
+    views_.resize(links_.size());
     for_each_node([&](std::size_t i) {
       for (std::int64_t l = nodes_.offsets[i]; l < nodes_.offsets[i + 1]; ++l) views_[l] = View(links_[l]);
     });
@@ -97,6 +102,11 @@ class LatticeSolver {
   // Of the link from a node, in its sizes.
   double length_of(std::int32_t node, std::int64_t link) const {
     return norm(nodes_.points[node] - nodes_.points[links_[link].neighbour]) / nodes_.sizes[node];
+  }
+  // A normal, with the length of twice the area.
+  Vec3 across_of(const Triangle& triangle) const {
+    const Vec3 &a = nodes_.points[triangle[0]], &b = nodes_.points[triangle[1]], &c = nodes_.points[triangle[2]];
+    return cross(b - a, c - a);
   }
   std::int32_t number_of(std::int64_t link, std::size_t axis) const {
     return 3 * pair_numbers_[link] + static_cast<std::int32_t>(axis);
@@ -203,16 +213,14 @@ void LatticeSolver::add_steps_on_surface(fields::Loops& loops) const {
 // triangles at a side may say so, which makes the layer flat the more.
 void LatticeSolver::add_layers_on_surface(fields::Loops& loops) const {
   for (const Triangle& triangle : nodes_.triangles) {
-    const Vec3 &a = nodes_.points[triangle[0]], &b = nodes_.points[triangle[1]], &c = nodes_.points[triangle[2]];
-    const Vec3 across = cross(b - a, c - a);
-    const auto is_normal = [&](const Vec3& axis) { return std::abs(dot(axis, across)) > normal_cosine * norm(across); };
+    const Vec3 across = across_of(triangle);
     for (std::size_t side = 0; side < 3; ++side) {
       const auto [i, j] = std::minmax(triangle[side], triangle[(side + 1) % 3]);
       const std::int64_t ij = links_.between(i, j);
       if (ij == no_index || links_[ij].weight <= 0) continue;
       const LatticeLink& t = links_[ij];
       for (std::size_t k = 0; k < 3; ++k) {
-        if (!is_normal(frames_[i][k]) || !is_normal(frames_[j][t.axis[k]])) continue;
+        if (!is_along(frames_[i][k], across) || !is_along(frames_[j][t.axis[k]], across)) continue;
         loops.add_step(number_of(ij, k), false);
         loops.close();
       }
@@ -248,11 +256,10 @@ void LatticeSolver::round_rows() {
   });
   // A face is a layer up to its border.
   for (const Triangle& triangle : nodes_.triangles) {
-    const Vec3& a = nodes_.points[triangle[0]];
-    const Vec3 across = cross(nodes_.points[triangle[1]] - a, nodes_.points[triangle[2]] - a);
+    const Vec3 across = across_of(triangle);
     for (const Vertex v : triangle)
       for (std::size_t k = 0; k < 3; ++k)
-        if (std::abs(dot(frames_[v][k], across)) > normal_cosine * norm(across)) held[v][k] = 0;
+        if (is_along(frames_[v][k], across)) held[v][k] = 0;
   }
   const auto shifts = fields::whole_row_shifts<3>({nodes_.offsets, links_.all()}, held);
   if (shifts.empty()) return;
