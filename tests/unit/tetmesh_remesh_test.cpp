@@ -9,18 +9,21 @@
 #include "common/run/random.hpp"
 #include "tetmesh_surfaces.hpp"
 #include "tools/tetmesh/solid/surface_check.hpp"
+#include "tools/tetmesh/surface/bulges.hpp"
 #include "tools/tetmesh/surface/remesh_steps.hpp"
 #include "tools/tetmesh/surface/surface_distance.hpp"
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
 namespace hexpipe {
 using namespace formats;
+using namespace tetmesh::geometry;
 using namespace tetmesh::solid;
 using namespace tetmesh::surface;
 namespace {
 
 using testing::box;
 using testing::cube;
+using testing::distance_between;
 using testing::Facet;
 using testing::Facets;
 using testing::inverted;
@@ -151,8 +154,9 @@ TEST(Remesh, StepsFitWhatIsThere) {
 TEST(Remesh, ResultIsASurfaceThatKeepsItsDistance) {
   const Facets hollow = joined(sphere({0, 0, 0}, 3, 16), inverted(sphere({0.4, 0.3, 0.2}, 1.6, 11)));
   const Facets nested = joined(cube(0, 4, 3), sphere({2, 2, 2}, 1.2, 13));
-  for (const Facets& facets : {hollow, nested})
+  for (const bool has_features : {false, true})
     for (const double deviation : {0.2, 0.03}) {
+      const Facets& facets = has_features ? nested : hollow;
       const Surface surface = surface_of(facets);
       const RemeshResult result = remesh_surface(surface, {.size = 0.4, .deviation = deviation});
       ASSERT_EQ(result.failure, "");
@@ -161,7 +165,9 @@ TEST(Remesh, ResultIsASurfaceThatKeepsItsDistance) {
       EXPECT_LE(result.to_input, deviation * 0.4 * 1.001);
       const DistanceIndex input(surface.points, surface.triangles),
           output(result.surface.points, result.surface.triangles);
-      for (const Vec3& p : result.surface.points) EXPECT_LT(input.distance(p), 1e-9);
+      // Vertices step out of the hollow ball, which has no features.
+      const double out = has_features ? 1e-9 : 0.52 * deviation * 0.4;
+      for (const Vec3& p : result.surface.points) EXPECT_LT(input.distance(p), out);
       for (const Vec3& p : surface.points) EXPECT_LE(output.distance(p), deviation * 0.4 * 1.001);
       const Surface found = find_shells(result.surface, ShellRule::oriented);
       ASSERT_EQ(found.shells.size(), 2u);
@@ -170,6 +176,103 @@ TEST(Remesh, ResultIsASurfaceThatKeepsItsDistance) {
       for (std::size_t s = 0; s < 2; ++s)
         EXPECT_NEAR(found.shells[s].volume / surface.shells[s].volume, 1, 3 * deviation * 0.4 / 1.2);
     }
+}
+
+// Faces on a ball of 1.6 sizes would leave it by a sixth of a size, all to the inside. With its vertices on the ball 17
+// to 30 points of the input stay.
+TEST(Remesh, SharesTheDistanceOfFacesBetweenBothSidesOfABall) {
+  for (const double radius : {1.6, 1.8, 2.0}) {
+    const Surface ball = surface_of(sphere({0, 0, 0}, radius, 40));
+    const RemeshResult result = remesh_surface(ball, {.size = 1});
+    ASSERT_EQ(result.failure, "");
+    EXPECT_LT(result.extra_points, 10u) << radius;
+    EXPECT_LE(std::max(result.to_input, result.from_input), 0.15);
+    EXPECT_LE(distance_between(ball, result.surface), 0.151);
+    double furthest = 0;
+    for (const Vec3& p : result.surface.points) furthest = std::max(furthest, norm(p));
+    EXPECT_GT(furthest, radius + 0.01);
+    EXPECT_NO_THROW(check_surface(result.surface));
+  }
+}
+
+// A coarse ball, of which each face knows the point of the sphere above its middle.
+struct CoarseBall {
+  CoarseBall() {
+    for (const auto f : mesh.faces()) {
+      const auto [a, b, c] = mesh.positions(f);
+      above.push_back({unit(a + b + c)});
+    }
+  }
+  double furthest() const {
+    double greatest = 0;
+    for (const auto f : mesh.faces()) {
+      const auto [a, b, c] = mesh.positions(f);
+      greatest = std::max(greatest, std::sqrt(TriangleDistance(a, b, c).squared(above[f.idx()].front())));
+    }
+    return greatest;
+  }
+  FeatureMesh mesh{surface_of(sphere({0, 0, 0}, 1, 6)), 170};
+  std::vector<std::vector<Vec3>> above;  // by face
+};
+
+TEST(StepOut, BringsFacesNearWithoutTakingVerticesFar) {
+  CoarseBall ball;
+  const double before = ball.furthest(), deviation = before / 1.5;
+  step_out(ball.mesh, ball.above, FirmVertices(ball.mesh, {}, 1), deviation);
+  EXPECT_LT(ball.furthest(), deviation);
+  for (const auto v : ball.mesh.vertices()) {
+    EXPECT_GE(norm(ball.mesh.position(v)), 1);
+    EXPECT_LT(norm(ball.mesh.position(v)), 1 + 0.61 * deviation);
+  }
+}
+
+TEST(StepOut, LeavesWhatIsNearEnough) {
+  CoarseBall ball;
+  const double deviation = 1.001 * ball.furthest();
+  step_out(ball.mesh, ball.above, FirmVertices(ball.mesh, {}, 1), deviation);
+  for (const auto v : ball.mesh.vertices()) EXPECT_NEAR(norm(ball.mesh.position(v)), 1, 1e-12);
+}
+
+// Three corners of a tip near each other: with the tip's own step one of its faces would turn by half a right angle.
+TEST(StepOut, TurnsNoFace) {
+  CoarseBall ball;
+  const double deviation = ball.furthest() / 1.5;
+  const auto f = *ball.mesh.faces_begin();
+  const auto [a, b, c] = ball.mesh.corners(f);
+  const Vec3 pa = ball.mesh.position(a), pb = ball.mesh.position(b);
+  const Vec3 middle = 0.5 * (pa + pb), pc = ball.mesh.position(c);
+  ball.mesh.set_point(c, to_open_mesh(middle + 0.1 * deviation * unit(pc - middle)));
+  std::vector<std::array<Vec3, 3>> before;
+  for (const auto g : ball.mesh.faces()) before.push_back(ball.mesh.positions(g));
+  const std::vector<Vec3> faults{pa, pb};
+  step_out(ball.mesh, ball.above, FirmVertices(ball.mesh, std::array{&faults}, 1e-6), deviation);
+  std::size_t i = 0, moved = 0;
+  for (const auto g : ball.mesh.faces()) {
+    const auto [p, q, r] = before[i++];
+    const auto [x, y, z] = ball.mesh.positions(g);
+    moved += x != p || y != q || z != r;
+    EXPECT_GT(dot(unit(cross(q - p, r - p)), unit(cross(y - x, z - x))), 0.82);
+  }
+  EXPECT_GT(moved, 10u);
+  EXPECT_EQ(ball.mesh.position(c), middle + 0.1 * deviation * unit(pc - middle));
+}
+
+TEST(StepOut, LeavesFirmVertices) {
+  CoarseBall ball, without_faults;
+  const double deviation = ball.furthest() / 1.5;
+  const std::vector<Vec3> faults{{0, 0, 1}};
+  const FirmVertices firm(ball.mesh, std::array{&faults}, 0.8);
+  step_out(ball.mesh, ball.above, firm, deviation);
+  step_out(without_faults.mesh, without_faults.above, FirmVertices(without_faults.mesh, {}, 1), deviation);
+  std::size_t firm_ones = 0;
+  for (const auto v : ball.mesh.vertices()) {
+    const Vec3 here = ball.mesh.position(v);
+    EXPECT_EQ(firm.has(v), norm(unit(here) - faults[0]) <= 0.8);
+    EXPECT_NEAR(norm(here), firm.has(v) ? 1 : norm(without_faults.mesh.position(v)), 1e-12);
+    firm_ones += firm.has(v);
+  }
+  EXPECT_GT(firm_ones, 0u);
+  EXPECT_LT(firm_ones, ball.mesh.n_vertices() / 2);
 }
 
 TEST(Remesh, KeepsTagsAndTheAreaOfEach) {

@@ -144,5 +144,11 @@ TEST(Fill, EstimatesUnlessMuchOfALargeMeshIsTurned) {
   EXPECT_FALSE(frame_plainly_wins(false, 1, 100000));
 }
 
+TEST(Fill, TakesTheFrameUnlessTheLatticeIsClearlyBetter) {
+  EXPECT_TRUE(frame_wins(0.9, 0.95));
+  EXPECT_TRUE(frame_wins(0.9889, 0.9876));  // notch: 97.6 % of the number with the lattice, 98.8 with the frame
+  EXPECT_FALSE(frame_wins(0.95, 0.939));
+}
+
 }  // namespace
 }  // namespace hexpipe

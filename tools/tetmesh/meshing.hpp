@@ -51,4 +51,7 @@ MeshedSurface mesh_surface(const solid::Surface& given, const sizing::SizeDemand
 // the mesh with the lattice's points.
 bool frame_plainly_wins(bool remeshed, double turned_share, std::size_t tets);
 
+// Otherwise: by the estimated shares of the volume in hexes (0 to 1), of which the lattice's has to be clearly higher.
+bool frame_wins(double lattice_share, double frame_share);
+
 }  // namespace hexpipe::tetmesh

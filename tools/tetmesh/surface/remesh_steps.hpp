@@ -39,8 +39,9 @@ void insert_points(FeatureMesh& mesh, std::span<const SurfacePoint> points, cons
 
 // What went wrong when vertices were removed before.
 struct CloseWatch {
-  std::vector<Vec3> left_behind;  // points of the original surface from which the faces came too far
-  std::vector<Vec3> strayed;      // points of faces that came too far from the original surface
+  std::vector<Vec3> left_behind = {};   // points of the original surface from which the faces came too far
+  std::vector<Vec3> strayed = {};       // points of faces that came too far from the original surface
+  std::vector<Vec3> other_faults = {};  // where nothing came too far, but the surface was not as promised
 };
 
 // The mesh is changed in regions of about this many vertices at the same time. With half as many, more vertices are
@@ -51,13 +52,16 @@ inline constexpr std::size_t region_vertices = 8000;
 struct RemovalLimits {
   sizing::SizeField deviation;     // from the original surface
   sizing::SizeField longest_edge;  // of edges whose end moves, unless they were longer
+  // Faces without a firm corner may come this many deviations from the original surface, for their corners step out of
+  // it at last (bulges.hpp), so that the distance is shared between its two sides. 1: none does.
+  double bulge = 1;
 };
 
 // Feature curves stay where they are, apart from their removed vertices. No face turns over. Every removed vertex stays
 // within the deviation of the faces that took its place, and these stay within it of the original surface, or within
 // 1.15 times as much where that mends a sliver. Both are measured at few points; what is watched closely is measured at
-// more. Vertices that cannot be removed in this way stay. Returns their number. The mesh must have no deleted elements;
-// those of this step are left in it.
+// more. Near faults that are known no face bulges. Vertices that cannot be removed in this way stay. Returns their
+// number. The mesh must have no deleted elements; those of this step are left in it.
 std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, const RemovalLimits& limits,
                             const CloseWatch& watch = {});
 

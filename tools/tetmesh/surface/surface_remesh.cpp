@@ -1,7 +1,8 @@
 // The steps: sample features, and the middles of small fillets, as densely as rows of points should begin there; make
 // the triangles that carry the field; put points on them by a front; insert these points; remove all other vertices.
-// The result is judged as a whole. In the next attempt, what came too far, on either surface, is measured closely, and
-// around other faults the input's own vertices stay; in the last two, its triangles do.
+// On organic surfaces vertices step out of it last, where faces came far. The result is judged as a whole. In the next
+// attempt, what came too far, on either surface, is measured closely, and around other faults the input's own vertices
+// stay; in the last two, its triangles do.
 
 #include "tools/tetmesh/surface/surface_remesh.hpp"
 
@@ -31,6 +32,7 @@ constexpr double field_edge = 1.3, row_edge = 2.6;
 // If the points on features are less than this share of all points on the surface, their number makes no difference.
 // Organic surfaces have up to the second share, CAD has more; the bends of the first are not even.
 constexpr double few_features = 0.05, features_of_cad = 0.1;
+constexpr int most_parts = 64;  // of an edge, at which the size is asked for
 // Flips that move the surface by less than this, in sizes, do not count as moving it.
 constexpr double flatness = 1e-5;
 // Points nearer than this, in sizes, to a vertex or an edge of the field's triangles become one with it.
@@ -40,6 +42,10 @@ constexpr double sample_spacing = 0.34;
 // The share of the deviation that removing vertices may use. It measures only vertices, and some points of edges and
 // faces. The chords of feature curves take no more, or vertices between their ends could not go.
 constexpr double removal_share = 0.85;
+// On organic surfaces faces may come this many times as far, where their corners can step out of the surface. Where
+// they cannot, because it bends both ways for example, that is a fault; so not in later attempts.
+constexpr double bulge_of_organic = 1.5;
+constexpr int bulging_attempts = 3;
 // Where the surface bends (bend_stretch.hpp), straight lines between rows of points may leave it by this share of the
 // deviation. With 0.85, as much as removing vertices may use, nothing is gained: lines along a diagonal leave it by
 // more.
@@ -131,6 +137,7 @@ class SurfaceRemesher::Work {
   const solid::Surface& shape_;  // the given one, or that without its short features
   sizing::SizeField size_, deviation_;
   double row_stretch_;
+  double bulge_ = 1;
   bool is_prepared_ = false;
   double expected_points_;  // on the new surface
   std::optional<solid::Surface> thinned_;
@@ -138,8 +145,7 @@ class SurfaceRemesher::Work {
   FeatureMesh prepared_;           // with all points inserted, and with the vertices of the input
   std::optional<Carrier> carrier_;
   std::optional<DistanceIndex> input_;
-  CloseWatch watch_;          // by what earlier attempts showed
-  std::vector<Vec3> faults_;  // of earlier attempts, all kinds
+  CloseWatch watch_;  // by what earlier attempts showed
 };
 
 // Scans have a hundred triangles and more for each that is needed. The field, the front and the removal of vertices
@@ -167,7 +173,7 @@ bool SurfaceRemesher::Work::judge() {
   // A point may come again; that only takes time.
   append(watch_.left_behind, too_far.left_behind);
   append(watch_.strayed, too_far.strayed);
-  for (const std::vector<Vec3>* some : {&places, &too_far.left_behind, &too_far.strayed}) append(faults_, *some);
+  append(watch_.other_faults, places);
   if (result.attempts < careful_attempts) {
     keep_nearest(places, fault_reach / result.attempts * size_);
   } else {
@@ -194,12 +200,16 @@ bool SurfaceRemesher::Work::prepare() {
   return placed;
 }
 
-// Rows end where sizes differ; then 0. Where features are few, the surface between them matters more.
 double SurfaceRemesher::Work::share_on_features() const {
-  if (!size_.is_uniform()) return 0;
   double steps = 0;
-  for (const auto e : prepared_.edges())
-    if (prepared_.is_feature(e)) steps += prepared_.calc_edge_length(e) / size_.greatest();
+  for (const auto e : prepared_.edges()) {
+    if (!prepared_.is_feature(e)) continue;
+    const auto h = prepared_.halfedge_handle(e, 0);
+    const Vec3 start = prepared_.position(prepared_.from_vertex_handle(h));
+    const Vec3 along = prepared_.position(prepared_.to_vertex_handle(h)) - start;
+    const int parts = std::clamp(static_cast<int>(norm(along) / size_.least()), 1, size_.is_uniform() ? 1 : most_parts);
+    for (int i = 0; i < parts; ++i) steps += norm(along) / parts / size_.at(start + (i + 0.5) / parts * along);
+  }
   return steps / expected_points_;
 }
 
@@ -207,9 +217,13 @@ bool SurfaceRemesher::Work::place_points() {
   if (size_.is_uniform()) prepared_.add_crests(crest_lines(prepared_, size_));
   const sizing::SizeField longest = field_edge * size_, flat = flatness * size_;
   const double on_features = share_on_features();
-  const bool counts_rows = on_features > few_features;
+  // Rows end where sizes differ. Where features are few, the surface between them matters more.
+  const bool counts_rows = size_.is_uniform() && on_features > few_features;
   std::optional<sizing::SizeField> chord_height;
-  if (on_features > features_of_cad) chord_height = row_share * deviation_;
+  if (on_features <= features_of_cad)
+    bulge_ = bulge_of_organic;
+  else if (size_.is_uniform())
+    chord_height = row_share * deviation_;
   if (counts_rows)
     sample_feature_curves(prepared_, curves_by_rows(prepared_, size_, chord_height, row_edge * size_, flat), size_,
                           removal_share * deviation_);
@@ -241,7 +255,7 @@ void SurfaceRemesher::Work::place_front(const RowGuide& guide) {
 void SurfaceRemesher::Work::follow(const RowGuide& guide) {
   result = {};
   prepared_ = carrier_->mesh;
-  // What is watched stays: a face strays, and leaves points behind, where the input is narrow, on any points.
+  // What is watched stays: mostly a face strays, and leaves points behind, where the input is narrow, on any points.
   place_front(guide);
   is_prepared_ = true;
 }
@@ -261,7 +275,8 @@ std::size_t SurfaceRemesher::Work::count_places(std::span<const Vertex> vertices
 void SurfaceRemesher::Work::remove_vertices_of_input() {
   const Step step(nullptr, 0.8, 1);
   FeatureMesh mesh = prepared_;
-  remove_vertices(mesh, *input_, {removal_share * deviation_, longest_edge * size_}, watch_);
+  const double bulge = result.attempts <= bulging_attempts ? bulge_ : 1;
+  remove_vertices(mesh, *input_, {removal_share * deviation_, longest_edge * size_, bulge}, watch_);
   join_points_beside_features(mesh);
   result.surface = mesh.to_surface(surface_);
   result.on_feature = mesh.points_on_features();
@@ -272,11 +287,12 @@ void SurfaceRemesher::Work::remove_vertices_of_input() {
 
 // Not where an earlier surface had a fault, which may have come from that.
 void SurfaceRemesher::Work::join_points_beside_features(FeatureMesh& mesh) const {
-  geometry::SizedPointGrid faults(faults_.empty() ? Vec3{} : faults_.front());
-  for (const Vec3& p : faults_) faults.add(p, size_.greatest());
+  geometry::SizedPointGrid faults(surface_.points.front());
+  for (const std::vector<Vec3>* some : {&watch_.other_faults, &watch_.left_behind, &watch_.strayed})
+    for (const Vec3& p : *some) faults.add(p, size_.greatest());
   flip_caps(mesh, surface_, flattest_cap * deviation_, [&](HalfEdgeH h, double) {
     const Vec3 corner = mesh.position(mesh.to_vertex_handle(mesh.next_halfedge_handle(h)));
-    return faults_.empty() || !has_within(faults, corner, fault_reach * size_.at(corner));
+    return faults.points().empty() || !has_within(faults, corner, fault_reach * size_.at(corner));
   });
 }
 

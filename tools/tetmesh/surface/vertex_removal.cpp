@@ -11,6 +11,7 @@
 #include "common/mesh/box_tree.hpp"
 #include "common/run/parallel.hpp"
 #include "tools/tetmesh/geometry/triangle_distance.hpp"
+#include "tools/tetmesh/surface/bulges.hpp"
 #include "tools/tetmesh/surface/delaunay_flips.hpp"
 #include "tools/tetmesh/surface/mesh_regions.hpp"
 
@@ -31,6 +32,8 @@ constexpr double most_samples = 64;  // along an edge
 constexpr double thin_shape = 0.1, allowance_for_thin = 1.15;
 // Removing some vertices makes others removable. More rounds found nothing.
 constexpr int most_rounds = 20;
+// Vertices within this share of the longest edge of an earlier fault are firm: about as far as an edge reaches.
+constexpr double firm_reach = 0.4;
 // Faces within this many deviations of a place where faces strayed are measured at points of a grid with this many
 // parts on an edge.
 constexpr double stray_reach = 4;
@@ -53,6 +56,7 @@ Vec3 middle_of(const Corners& c) {
 // A change of the mesh: the faces that go or change, what they become, and where their removed vertices would go.
 struct Change {
   bool flat = false;  // everything that changes lies in one plane, before and after
+  bool may_bulge = false;
   std::vector<FaceH> faces;
   std::vector<Corners> corners;
   std::vector<Vec3> places;         // where to measure: on the new faces and in the middle of each new edge
@@ -129,13 +133,15 @@ class StrayedPlaces {
 class VertexRemover {
  public:
   VertexRemover(FeatureMesh& mesh, const DistanceIndex& original, const RemovalLimits& limits, Strays& strays,
-                const StrayedPlaces& strayed)
+                const StrayedPlaces& strayed, const FirmVertices& firm)
       : mesh_(mesh),
         original_(original),
         deviation_(&limits.deviation),
         longest_edge_(limits.longest_edge),
+        bulge_(limits.bulge),
         strays_(strays),
-        strayed_(strayed) {}
+        strayed_(strayed),
+        firm_(firm) {}
   // A remover that changes nothing outside a region.
   VertexRemover(const VertexRemover& whole, const MeshRegions& regions, std::size_t region) : VertexRemover(whole) {
     regions_ = &regions;
@@ -163,6 +169,7 @@ class VertexRemover {
   // Flips only edges of thin triangles, within `deviation`.
   void flip_thin(std::span<const EdgeH> edges, const sizing::SizeField& deviation) {
     deviation_ = &deviation;
+    bulge_ = std::max(1.0, bulge_ / allowance_for_thin);
     only_thin_ = true;
     flip(edges);
   }
@@ -184,6 +191,7 @@ class VertexRemover {
   void describe_collapse(HalfEdgeH collapse);
   bool fits() { return strays_fit() && (change_.flat || faces_fit()); }
   bool strays_fit();
+  bool is_within(double distance, const Vec3& p) const;
   bool is_near(const Vec3& p);
   bool faces_fit();
   bool fits_closely(const Corners& face);
@@ -196,9 +204,11 @@ class VertexRemover {
   std::int32_t nearest_ = no_index;  // the triangle of the original that was measured last
   const sizing::SizeField* deviation_;
   const sizing::SizeField& longest_edge_;
+  double bulge_;
   bool only_thin_ = false;
   Strays& strays_;
   const StrayedPlaces& strayed_;
+  const FirmVertices& firm_;
   const MeshRegions* regions_ = nullptr;  // null: everywhere
   std::size_t region_ = 0;
   // A face at the vertex that may go.
@@ -335,6 +345,7 @@ double VertexRemover::shape_after(HalfEdgeH collapse) {
 void VertexRemover::describe_collapse(HalfEdgeH collapse) {
   const VertexH v = mesh_.from_vertex_handle(collapse), to = mesh_.to_vertex_handle(collapse);
   change_.flat = mesh_.is_flat_around(v);
+  change_.may_bulge = bulge_ > 1;
   change_.faces.clear();
   change_.corners.clear();
   change_.places.clear();
@@ -348,7 +359,9 @@ void VertexRemover::describe_collapse(HalfEdgeH collapse) {
     std::size_t moved = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       if (handles[i] == v) moved = i;
-      after[i] = mesh_.position(handles[i] == v ? to : handles[i]);
+      const VertexH corner = handles[i] == v ? to : handles[i];
+      after[i] = mesh_.position(corner);
+      change_.may_bulge = change_.may_bulge && !firm_.has(corner);
     }
     change_.faces.push_back(f);
     change_.corners.push_back(after);
@@ -371,14 +384,19 @@ bool VertexRemover::strays_fit() {
         least = d;
         nearest = i;
       }
-    if (!deviation_->is_at_least(std::sqrt(least), p)) return false;
+    if (!is_within(std::sqrt(least), p)) return false;
     change_.target.push_back(nearest);
   }
   return true;
 }
 
+// Whether the change may have this distance from the original surface.
+bool VertexRemover::is_within(double distance, const Vec3& p) const {
+  return deviation_->is_at_least(change_.may_bulge ? distance / bulge_ : distance, p);
+}
+
 bool VertexRemover::is_near(const Vec3& p) {
-  return deviation_->is_at_least(original_.distance(p, nearest_, deviation_->least()), p);
+  return is_within(original_.distance(p, nearest_, deviation_->least()), p);
 }
 
 // Measures from the original surface.
@@ -415,7 +433,14 @@ bool VertexRemover::allow_flip(EdgeH e, const EdgeDiamond& diamond) {
   const FaceH left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
               right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
   if (mesh_.is_held(left) || mesh_.is_held(right)) return false;
-  if (!deviation_->is_at_least(diamond.height(), diamond.end_points[0])) return false;
+  const HalfEdgeH h = mesh_.halfedge_handle(e, 0);
+  const HalfEdgeH twin = mesh_.opposite_halfedge_handle(h);
+  change_.may_bulge =
+      bulge_ > 1 && std::ranges::none_of(std::array{mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h),
+                                                    mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
+                                                    mesh_.to_vertex_handle(mesh_.next_halfedge_handle(twin))},
+                                         [&](VertexH v) { return firm_.has(v); });
+  if (!is_within(diamond.height(), diamond.end_points[0])) return false;
   const auto [a, b] = diamond.end_points;
   const auto [l, r] = diamond.across_points;
   if (only_thin_ && std::min(shape_of_triangle({a, b, l}), shape_of_triangle({a, b, r})) >= thin_shape) return false;
@@ -439,7 +464,11 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   Strays strays = samples_of_edges(mesh, deviation);
   watch_points(mesh, watch.left_behind, strays);
   const StrayedPlaces strayed(watch.strayed, deviation);
-  VertexRemover everywhere(mesh, original, limits, strays, strayed);
+  FirmVertices firm;
+  if (limits.bulge > 1)
+    firm = FirmVertices(mesh, std::array{&watch.left_behind, &watch.strayed, &watch.other_faults},
+                        firm_reach * limits.longest_edge);
+  VertexRemover everywhere(mesh, original, limits, strays, strayed, firm);
   std::vector<VertexH> at_joints;
   for (const VertexH v : mesh.vertices())
     if (!mesh.is_kept(v) && mesh.has_copies(v) && mesh.place(v) == v.idx()) at_joints.push_back(v);
@@ -465,6 +494,7 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   const std::vector<EdgeH> edges(mesh.edges().begin(), mesh.edges().end());
   everywhere.flip(edges);
   everywhere.flip_thin(edges, allowance_for_thin * deviation);
+  if (limits.bulge > 1) step_out(mesh, strays, firm, deviation);
   return left.size() + left_at_joints;
 }
 
