@@ -50,6 +50,19 @@ ALL="--cells hex,prism,pyramid --min-quality 0.1"
 }
 
 # bats test_tags=optimized
+@test "so do those of a mesh with dislocations" {
+  if [[ ! -x "$HEXPIPE_BIN/tetmesh" ]]; then skip "without tetmesh"; fi
+  tetmesh -q "$DATA/plate-holes.stl" --size 17 -o plate.tar
+  run tar tf plate.tar
+  assert_line mesh/dislocations.npy
+  findhex -q plate.tar -o plate.candidates.tar
+  buildgraph -q plate.candidates.tar -o plate.graph.tar
+  run_parts plate.tar 3 plate.3
+  merge-parts plate.3/graph-*.tar -o merged.tar
+  assert_same_bytes merged.tar plate.graph.tar
+}
+
+# bats test_tags=optimized
 @test "so do those of two regions with tags, of pieces that do not touch, and of tets turned inside out" {
   bar --regions >regions.mesh
   parts_equal_whole regions "7" $ALL

@@ -917,14 +917,17 @@ print(len(points), len(triangles), 0)
 for p in points: print(*p)
 for t in triangles: print(3, *t)
 PYTHON
-  local size best
+  local size surface best
   for size in 0.4 0.5; do
-    tetmesh -q two.off --size $size -o two.mesh --stats two.json
-    best=$($PYTHON -c "share = $(stats_in two.json estimated_hex_share); print(max(share, key=share.get))")
-    holds "two['points_kept'] == '$best'" two.json
-    cat two.json >>both.json
+    for surface in remesh keep; do
+      tetmesh -q two.off --size $size --surface $surface -o two.mesh --stats two.json
+      best=$($PYTHON -c "share = $(stats_in two.json estimated_hex_share); print(max(share, key=share.get))")
+      holds "two['points_kept'] == '$best'" two.json
+      cat two.json >>all.json
+    done
   done
-  grep -q '"mixed"' both.json
+  grep -q '"points_kept": "mixed"' all.json
+  grep -q '"points_kept": "frame"' all.json
 }
 
 # bats test_tags=optimized

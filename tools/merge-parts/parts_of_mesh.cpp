@@ -173,6 +173,8 @@ bool Merger::merge_mesh(const std::string& name) {
     merge_rows<std::int32_t>(parts_, triangles_, out_, unchanged);
   else if (name == "mesh/ridges.npy")
     merge_ridges();
+  else if (name == "mesh/dislocations.npy")  // all parts have those of the whole
+    copy_common(parts_, out_);
   else
     return false;
   return true;

@@ -37,14 +37,15 @@ int main(int argc, char** argv) {
     options.seed = context.common.seed;
     Phases phases;
     pipeline::Stage stage(context);
-    pipeline::StageData data = stage.read({.needs = {Role::mesh}, .surface_members = true});
+    pipeline::StageData data = stage.read({.needs = {Role::mesh}, .dislocations = true, .surface_members = true});
     const std::string source = stage.source_of(Role::mesh);
     phases.end("read");
     data.history.push_back(pipeline::history_entry_of(context));
     PartFiles files(options.directory, options.parts, options.compress);
     const SplitCounts counts =
-        split(std::move(*data.mesh), options.parts, options.seed, source.c_str(),
-              [&](const PartOfMesh& part) { files.write(part, data.history, data.names, data.surface_members); });
+        split(std::move(*data.mesh), options.parts, options.seed, source.c_str(), [&](const PartOfMesh& part) {
+          files.write(part, {data.history, data.names, data.surface_members, data.dislocations});
+        });
     files.commit();
     phases.end("split");
     context.note(summary(counts));

@@ -49,15 +49,15 @@ std::string PartFiles::name_of(std::int32_t part) const {
   return fmt::format("{}{:04}.tar{}", stem, part, compress_ ? ".zst" : "");
 }
 
-void PartFiles::write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history,
-                      const formats::GroupNames& names, const std::vector<pipeline::RawMember>& surface) {
+void PartFiles::write(const PartOfMesh& part, const SharedMembers& shared) {
   formats::Output& output = files_.add(fmt::format("{}/{}", directory_, name_of(part.part.part)));
   pipeline::BundleWriter writer(output, compress_);
   pipeline::write_members(writer, part.part);
-  for (const pipeline::RawMember& member : surface) writer.add_text(member.name, member.bytes);
+  for (const pipeline::RawMember& member : shared.surface) writer.add_text(member.name, member.bytes);
   pipeline::write_members(writer, part.mesh);
-  if (!names.empty()) writer.add_text(std::string(formats::names_member), text_of(names));
-  pipeline::write_history(writer, history);
+  if (!shared.dislocations.empty()) pipeline::write_dislocations(writer, shared.dislocations);
+  if (!shared.names.empty()) writer.add_text(std::string(formats::names_member), text_of(shared.names));
+  pipeline::write_history(writer, shared.history);
   writer.close();
   output.drain();
 }

@@ -13,15 +13,21 @@
 
 namespace hexpipe::mesh_part {
 
+// What each part has of the whole mesh.
+struct SharedMembers {
+  const std::vector<nlohmann::ordered_json>& history;  // the entries that the part begins with
+  const formats::GroupNames& names;
+  const std::vector<pipeline::RawMember>& surface;
+  const pipeline::DislocationSegments& dislocations;
+};
+
 class PartFiles {
  public:
   // Makes the directory unless it is there. Throws DataError when it holds parts that will not be replaced, left by a
   // run with more parts or with the other compression.
   PartFiles(std::string directory, std::int32_t parts, bool compress);
 
-  // `history`: the entries that the part begins with; `names` and `surface`: those of the whole mesh.
-  void write(const PartOfMesh& part, const std::vector<nlohmann::ordered_json>& history,
-             const formats::GroupNames& names, const std::vector<pipeline::RawMember>& surface);
+  void write(const PartOfMesh& part, const SharedMembers& shared);
   // Unless it is called, nothing new stays. Throws DataError when a part cannot be put in place; earlier ones stay.
   void commit() { files_.commit(); }
 

@@ -402,7 +402,7 @@ void Mesher::describe(const volume::FramePoints& frame) {
 
 void Mesher::describe(const volume::Dislocations& lines) {
   statistics_.dislocations = {lines.length, lines.at_singularities, lines.closed, lines.surface_ends};
-  dislocations_ = lines.segments;
+  if (!lines.segments.empty()) dislocations_ = lines.segments;
 }
 
 // The share of hexes in the mesh that is kept, where it was estimated.
