@@ -1,6 +1,7 @@
 #include "tools/tetmesh/volume/frame_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/run/parallel.hpp"
@@ -11,6 +12,9 @@ namespace {
 // Against all links of the node together. From 0.3 to 3, the share of the volume in hexes differs by 0.2 %.
 constexpr double suggestion_weight = 0.3;
 constexpr double normal_weight = 3;
+// How strongly frames are held while they diffuse, against all links of the node together: little at first, so that far
+// ones reach each other, and more each time.
+constexpr std::array<double, 6> holds = {1e-3, 2.5e-3, 6.3e-3, 0.016, 0.04, 0.1};
 constexpr int frame_sweeps = 10;
 // The weight of a node's own frame against its links when frames are smoothed: plain means of neighbours may oscillate.
 constexpr double inertia = 0.5;
@@ -42,8 +46,12 @@ class FrameSolver {
 
   std::vector<fields::Frame> solve() {
     prepare();
-    diffuse();
+    diffuse(0);
     project();
+    for (const double hold : holds) {
+      diffuse(hold);
+      project();
+    }
     for (int i = 0; i < frame_sweeps; ++i) sweep();
     return std::move(frames_);
   }
@@ -51,10 +59,10 @@ class FrameSolver {
  private:
   void prepare();
   double suggestion_weight_of(std::size_t node) const;
-  Field apply(const Field& x) const;
+  Field apply(const Field& x, double hold) const;
   Field residual() const;
   void restrict_to_freedom(Field& x) const;
-  void diffuse();
+  void diffuse(double hold);
   void project();
   void sweep();
   void lay_on_normal(std::size_t node);
@@ -91,20 +99,21 @@ double FrameSolver::suggestion_weight_of(std::size_t i) const {
   return degree_[static_cast<std::int64_t>(i)] * trust;
 }
 
-// The matrix of the quadratic energy: differences along links, and from suggestions.
-Field FrameSolver::apply(const Field& x) const {
+// The matrix of the quadratic energy: differences along links, from suggestions, and from what is held.
+Field FrameSolver::apply(const Field& x, double hold) const {
   Field y(9, count_);
   parallel_for(count_, 512, [&](std::int64_t i) {
     const auto node = static_cast<std::size_t>(i);
-    fields::Harmonics sum = (degree_[i] + suggestion_weight_of(node)) * x.col(i);
+    fields::Harmonics sum = ((1 + hold) * degree_[i] + suggestion_weight_of(node)) * x.col(i);
     for (const FieldLink& link : nodes_.links_of(node)) sum -= static_cast<double>(link.weight) * x.col(link.node);
     y.col(i) = sum;
   });
   return y;
 }
 
+// Of the field as it is, which nothing holds back yet.
 Field FrameSolver::residual() const {
-  Field result = -apply(field_);
+  Field result = -apply(field_, 0);
   for (std::size_t i = 0; i < nodes_.surface.size(); ++i)
     result.col(static_cast<std::int64_t>(i)) += suggestion_weight_of(i) * nodes_.surface[i].suggested;
   restrict_to_freedom(result);
@@ -120,8 +129,9 @@ void FrameSolver::restrict_to_freedom(Field& x) const {
   }
 }
 
-// Conjugate gradients, preconditioned by the diagonal.
-void FrameSolver::diffuse() {
+// Changes the field to where the energy is least, with the field as it is held. Conjugate gradients, preconditioned by
+// the diagonal.
+void FrameSolver::diffuse(double hold) {
   constexpr int most_iterations = 100;
   constexpr double tolerance = 1e-2;
   const auto preconditioned = [&](const Field& x) -> Field { return x.array().rowwise() / degree_.array(); };
@@ -130,7 +140,7 @@ void FrameSolver::diffuse() {
   double product = rest.cwiseProduct(z).sum();
   const double enough = tolerance * tolerance * product;
   for (int k = 0; k < most_iterations && product > enough; ++k) {
-    Field image = apply(direction);
+    Field image = apply(direction, hold);
     restrict_to_freedom(image);
     const double step = product / direction.cwiseProduct(image).sum();
     field_ += step * direction;
