@@ -42,6 +42,9 @@ struct CloseWatch {
   std::vector<Vec3> left_behind = {};   // points of the original surface from which the faces came too far
   std::vector<Vec3> strayed = {};       // points of faces that came too far from the original surface
   std::vector<Vec3> other_faults = {};  // where nothing came too far, but the surface was not as promised
+
+  // The places of all kinds.
+  std::array<const std::vector<Vec3>*, 3> faults() const { return {&other_faults, &left_behind, &strayed}; }
 };
 
 // The mesh is changed in regions of about this many vertices at the same time. With half as many, more vertices are

@@ -288,7 +288,7 @@ void SurfaceRemesher::Work::remove_vertices_of_input() {
 // Not where an earlier surface had a fault, which may have come from that.
 void SurfaceRemesher::Work::join_points_beside_features(FeatureMesh& mesh) const {
   geometry::SizedPointGrid faults(surface_.points.front());
-  for (const std::vector<Vec3>* some : {&watch_.other_faults, &watch_.left_behind, &watch_.strayed})
+  for (const std::vector<Vec3>* some : watch_.faults())
     for (const Vec3& p : *some) faults.add(p, size_.greatest());
   flip_caps(mesh, surface_, flattest_cap * deviation_, [&](HalfEdgeH h, double) {
     const Vec3 corner = mesh.position(mesh.to_vertex_handle(mesh.next_halfedge_handle(h)));

@@ -191,6 +191,7 @@ class VertexRemover {
   void describe_collapse(HalfEdgeH collapse);
   bool fits() { return strays_fit() && (change_.flat || faces_fit()); }
   bool strays_fit();
+  bool may_bulge(VertexH corner) const { return bulge_ > 1 && !firm_.has(corner); }
   bool is_within(double distance, const Vec3& p) const;
   bool is_near(const Vec3& p);
   bool faces_fit();
@@ -345,7 +346,7 @@ double VertexRemover::shape_after(HalfEdgeH collapse) {
 void VertexRemover::describe_collapse(HalfEdgeH collapse) {
   const VertexH v = mesh_.from_vertex_handle(collapse), to = mesh_.to_vertex_handle(collapse);
   change_.flat = mesh_.is_flat_around(v);
-  change_.may_bulge = bulge_ > 1;
+  change_.may_bulge = true;
   change_.faces.clear();
   change_.corners.clear();
   change_.places.clear();
@@ -361,7 +362,7 @@ void VertexRemover::describe_collapse(HalfEdgeH collapse) {
       if (handles[i] == v) moved = i;
       const VertexH corner = handles[i] == v ? to : handles[i];
       after[i] = mesh_.position(corner);
-      change_.may_bulge = change_.may_bulge && !firm_.has(corner);
+      change_.may_bulge = change_.may_bulge && may_bulge(corner);
     }
     change_.faces.push_back(f);
     change_.corners.push_back(after);
@@ -433,13 +434,8 @@ bool VertexRemover::allow_flip(EdgeH e, const EdgeDiamond& diamond) {
   const FaceH left = mesh_.face_handle(mesh_.halfedge_handle(e, 0)),
               right = mesh_.face_handle(mesh_.halfedge_handle(e, 1));
   if (mesh_.is_held(left) || mesh_.is_held(right)) return false;
-  const HalfEdgeH h = mesh_.halfedge_handle(e, 0);
-  const HalfEdgeH twin = mesh_.opposite_halfedge_handle(h);
-  change_.may_bulge =
-      bulge_ > 1 && std::ranges::none_of(std::array{mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h),
-                                                    mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
-                                                    mesh_.to_vertex_handle(mesh_.next_halfedge_handle(twin))},
-                                         [&](VertexH v) { return firm_.has(v); });
+  const auto bulges = [&](VertexH corner) { return may_bulge(corner); };
+  change_.may_bulge = std::ranges::all_of(diamond.ends, bulges) && std::ranges::all_of(diamond.across, bulges);
   if (!is_within(diamond.height(), diamond.end_points[0])) return false;
   const auto [a, b] = diamond.end_points;
   const auto [l, r] = diamond.across_points;
@@ -465,9 +461,7 @@ std::size_t remove_vertices(FeatureMesh& mesh, const DistanceIndex& original, co
   watch_points(mesh, watch.left_behind, strays);
   const StrayedPlaces strayed(watch.strayed, deviation);
   FirmVertices firm;
-  if (limits.bulge > 1)
-    firm = FirmVertices(mesh, std::array{&watch.left_behind, &watch.strayed, &watch.other_faults},
-                        firm_reach * limits.longest_edge);
+  if (limits.bulge > 1) firm = FirmVertices(mesh, watch.faults(), firm_reach * limits.longest_edge);
   VertexRemover everywhere(mesh, original, limits, strays, strayed, firm);
   std::vector<VertexH> at_joints;
   for (const VertexH v : mesh.vertices())
