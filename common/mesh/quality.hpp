@@ -40,6 +40,9 @@ inline std::array<Vec3, 8> corner_points(std::span<const Vec3> points, std::span
 inline constexpr double least_hex_quality = 0.3;
 // Cells of other kinds are good enough from here on: nothing that assemble or fitcad does presses them below it.
 inline constexpr double good_enough = 0.12;
+// A prism, which stands in a column where rows end, and which a solver sees as it sees hexes, should have this:
+// smoothing makes room for it and presses none below, nor does what merges vertices. Layers at walls and fitcad may.
+inline constexpr double least_prism_quality = 0.3;
 
 // The least scaled Jacobian over the corners; for a pyramid, over the four of its base.
 double least_corner_scaled_jacobian(CellKind kind, std::span<const Vec3> corners);

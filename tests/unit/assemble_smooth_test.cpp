@@ -339,6 +339,32 @@ TEST(Smooth, HexesKeepAScaledJacobianOfThreeTenths) {
   EXPECT_LT(least, 0.35);
 }
 
+// Prisms stand in columns between hexes, which may not press them flat, as they do with pyramids and tets.
+TEST(Smooth, PrismsKeepAScaledJacobianOfThreeTenths) {
+  constexpr double least_prism = 0.3;
+  double least = 1;
+  constexpr std::uint64_t seeds = hexpipe::testing::random_cases(20);
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    auto lattice = make_lattice(5);
+    jitter(lattice, 0.15, random);
+    for (Vec3& at : lattice.mesh.points) at.x *= 4;
+    MixedMesh mesh =
+        assemble::assemble(lattice.mesh, lattice.cubes, random_choice(lattice, 0.7, random), {.smooth = 0}).mesh;
+    untangle(mesh, 20);
+    compute_quality(mesh);
+    const std::vector<double> before = mesh.prisms.quality;
+    smooth(mesh, 10);
+    compute_quality(mesh);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_GE(mesh.prisms.quality[i], std::min(before[i], least_prism) - 2 * quality_tolerance) << "prism " << i;
+      least = std::min(least, mesh.prisms.quality[i]);
+    }
+  }
+  EXPECT_LT(least, 0.35);
+}
+
 // A vertex pulled through the cells around it.
 TEST(Smooth, UntangleTurnsInvertedCellsRight) {
   const auto lattice = make_lattice(3);

@@ -17,7 +17,7 @@ namespace {
 
 // As in smoothing (shape/smoother.cpp): chosen cells are not pressed below that, and a hex counts as another cell of
 // half its quality.
-constexpr double least_hex = least_hex_quality, least_prism = good_enough;
+constexpr double least_hex = least_hex_quality, least_prism = least_prism_quality;
 constexpr double hex_weight = 0.5;
 constexpr int steps_to_make_room = 6;
 // Of raise_with_neighbours(), which goes on in small steps: with least_rise a tet on bridge ends at 0.1193. With 1e-4
@@ -111,7 +111,8 @@ void Patch::look_around(std::size_t i) {
     const auto at = corner_points(points_, cell.vertices());
     const auto own = static_cast<int>(std::ranges::find(cell.vertices(), moving_[i]) - cell.vertices().begin());
     shape::CornerRules rules;
-    if (cell.kind == CellKind::hex) rules = {.weight = hex_weight, .floor = least_hex};
+    if (cell.kind == CellKind::hex)
+      rules = {.weight = hex_weight, .share = 1 / (hex_weight * hex_weight), .floor = least_hex};
     if (cell.is_kept && cell.kind == CellKind::prism) rules = {.floor = least_prism};
     star_.add(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()), own, rules);
   }

@@ -110,7 +110,7 @@ HEXPIPE_ANY_REGISTERS void PointStar::Formulas::find_gradients(std::span<const E
 }
 
 void PointStar::add(CellKind kind, std::span<const Vec3> corners, int moving, const CornerRules& rules) {
-  const Term term{rules.weight, 1 / (rules.weight * rules.weight), rules.enough, rules.floor};
+  const Term term{rules.weight, rules.share, rules.enough, rules.floor};
   const double scale = kind == CellKind::tet ? rules.weight * tet_scale : rules.weight;
   with_topology(kind, [&](auto topology) {
     for (const auto& corner : decltype(topology)::corners) add_corner(corners, corner, moving, term, scale);

@@ -15,6 +15,7 @@ namespace hexpipe::assemble::shape {
 // How much the corners of an element count beside those of others.
 struct CornerRules {
   double weight = 1;  // factor on the scaled Jacobian: below 1, the element counts as worse and gets room sooner
+  double share = 1;   // of its corners in the mean
   double enough = 1;  // the mean counts higher values as this one
   double floor = -1;  // keep_floors() lets no value fall below this
 };
@@ -38,7 +39,6 @@ class PointStar {
   void find_values(const Vec3& at, std::vector<double>& values) const;
   void find_gradients(const Vec3& at, std::vector<Vec3>& gradients) const;
   double weight(std::size_t term) const { return terms_[term].weight; }
-  // The corner's share in the mean: larger if its weight makes it the worst sooner.
   double mean_share(std::size_t term) const { return terms_[term].mean_share; }
   // Whether the mean would not count a higher value than this one of the corner.
   bool is_enough(std::size_t term, double value) const { return value / weight(term) >= terms_[term].enough; }

@@ -99,7 +99,7 @@ std::int64_t raise_worst_cells(MixedMesh& mesh, const SlidingSurface& sliding) {
   if (std::ranges::none_of(mesh.pyramids.cells, [&](const auto& cell) { return is_poor(CellKind::pyramid, cell); }) &&
       std::ranges::none_of(mesh.tets.cells, [&](const auto& cell) { return is_poor(CellKind::tet, cell); }))
     return 0;
-  return Smoother(mesh, &sliding, hex_weight).raise_worst_cells();
+  return Smoother(mesh, &sliding, {.hex = hex_weight}).raise_worst_cells();
 }
 
 }  // namespace hexpipe::assemble::shape

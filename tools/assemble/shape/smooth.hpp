@@ -40,7 +40,8 @@ inline constexpr double poor_quality = 0.02;
 inline constexpr double poor_hex = 0.1;
 
 // Makes poor and inverted cells better at the cost of the cells around them, in at most `rounds` rounds over their
-// vertices. Valid cells stay valid, and hexes stay above least_hex_quality or as they are.
+// vertices. Valid cells stay valid; hexes stay above least_hex_quality, and prisms above
+// least_prism_quality, or as they are.
 void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr);
 
 // By vertex of the input, where smoothing found nothing more to do: what was around it then. A vertex around which
@@ -48,10 +49,10 @@ void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullp
 using Settled = std::vector<std::uint64_t>;
 
 // Smooths in at most `rounds` rounds over all vertices. No vertex leaves its plane or line (vertex_freedoms). No move
-// takes the worst cell around it below good enough (hexes twice good_enough), or makes it worse if it is below, or
-// presses a hex below least_hex_quality. Every cell stays valid everywhere. With `sliding`, vertices slide on curved
-// surfaces and curves where the worst cell is poor, within a small fraction of an edge length of the input's surface.
-// `settled`, which needs `sliding`, is read and written.
+// takes the worst cell around it below good enough (hexes twice good_enough, prisms 0.3), or makes it worse if it is
+// below, or presses a hex below least_hex_quality or a prism below least_prism_quality. Every cell stays valid
+// everywhere. With `sliding`, vertices slide on curved surfaces and curves where the worst cell is poor, within a small
+// fraction of an edge length of the input's surface. `settled`, which needs `sliding`, is read and written.
 SmoothCounts smooth(MixedMesh& mesh, int rounds, const SlidingSurface* sliding = nullptr, Settled* settled = nullptr);
 
 // As smooth(), but for vertices among hexes alone, also where smooth() passes over them because all are above 0.9. The
@@ -61,8 +62,8 @@ SmoothCounts polish(MixedMesh& mesh, int rounds, const SlidingSurface* sliding =
 // Raises the worst pyramid, then the worst tet, and the next where that came about, until one is good enough or does
 // not rise. Vertices of all cells around it move together, on the surface as in smooth(), so that its neighbours become
 // better than they have to be and can yield. No other cell falls below good enough that was not below before, and none
-// that was becomes worse, nor do those that are no hexes on average; hexes stay above least_hex_quality, or as they
-// are. Returns the number of cells that rose.
+// that was becomes worse, nor do those that are no hexes on average; hexes stay above least_hex_quality and
+// prisms above least_prism_quality, or as they are. Returns the number of cells that rose.
 std::int64_t raise_worst_cells(MixedMesh& mesh, const SlidingSurface& sliding);
 
 }  // namespace hexpipe::assemble::shape

@@ -66,10 +66,16 @@ class Cells {
   VertexItems cells_;
 };
 
+// What the scaled Jacobians of these kinds count when cells compete for a vertex; those of others count 1.
+struct KindWeights {
+  double hex;
+  double prism = 1;
+};
+
 class Smoother {
  public:
-  Smoother(MixedMesh& mesh, const SlidingSurface* sliding, double weight_of_hexes)
-      : weight_of_hexes_(weight_of_hexes),
+  Smoother(MixedMesh& mesh, const SlidingSurface* sliding, const KindWeights& weights)
+      : weights_(weights),
         points_(mesh.points),
         cells_(mesh),
         freedoms_(vertex_freedoms(mesh)),
@@ -151,7 +157,7 @@ class Smoother {
   bool looks_inverted(std::int32_t c) const;
   Vec3 growth_at(Vertex v) const;
 
-  double weight_of_hexes_;
+  KindWeights weights_;
   std::vector<Vec3>& points_;
   Cells cells_;
   std::vector<Freedom> freedoms_;
