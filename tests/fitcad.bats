@@ -77,7 +77,7 @@ ON_CYLINDER='sorted(abs(from_axis(q) - 2).max() < 7.5e-6 for q in of.values()) =
   # A cone that turns by 17 degrees from the cylinder below it, both in a block that is cut off behind.
   cad vessel 'Cylinder(1) = {0, 0, 0, 0, 0, 2, 1}; Cone(2) = {0, 0, 2, 0, 0, 1, 1, 0.7}; BooleanUnion(3) = {Volume{1}; Delete;}{Volume{2}; Delete;};
     Box(4) = {-1.5, -1.5, -1, 3, 3, 5}; BooleanFragments{Volume{3, 4}; Delete;}{}'
-  result vessel 0.4 --join
+  result vessel 0.41 --join
   fitcad -q vessel.tar -o fitted.tar --stats vessel.json
   holds 'vessel["distance"]["vertices"] < 1e-6 * vessel["diagonal"]' vessel.json
   # The box has eight corners.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "tests/unit/tetmesh_blocks.hpp"
@@ -107,6 +109,49 @@ TEST(LatticeField, HasLayersAlongFaces) {
     return rows;
   };
   EXPECT_NEAR(rows_at(0), rows_at(length), 0.25);
+}
+
+// Frames that turn by a right angle around an upright line in a block. The axes along the line lean, so that a walk
+// around the line leads up by 0.4 of a layer.
+TEST(LatticeField, HasLayersThatMeetAroundSingularities) {
+  constexpr std::int32_t width = 6, layers = 3;
+  constexpr double pitch = 0.4, centre_x = 3.3, centre_y = 2.7;
+  TetMesh mesh;
+  std::map<testing::Place, Vertex> number;
+  for (const testing::Place& at : testing::places_up_to({width, width, layers})) {
+    number[at] = static_cast<Vertex>(mesh.points.size());
+    mesh.points.push_back({static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
+  }
+  testing::fill_with_cubes(
+      {width, width, layers}, [&](const testing::Place& at) { return number.at(at); }, mesh);
+  const TetAdjacency adjacency(mesh, "block");
+  const FieldNodes nodes = testing::nodes_on(mesh, adjacency);
+  std::vector<tetmesh::fields::Frame> frames;
+  for (const Vec3& p : mesh.points) {
+    const Vec3 out{p.x - centre_x, p.y - centre_y, 0};
+    const Vec3 around = cross(up, unit(out));
+    const Vec3 leaning_up = unit(up + (pitch / (2 * std::numbers::pi * norm(out))) * around);
+    const double turn = std::atan2(out.y, out.x) / 4;
+    const Vec3 first{std::cos(turn), std::sin(turn), 0};
+    const Vec3 level = unit(first - dot(first, leaning_up) * leaning_up);
+    frames.push_back({level, cross(leaning_up, level), leaning_up});
+  }
+  const auto rise = [&](const LatticeLinks& links, std::int32_t z) {
+    double sum = 0;
+    testing::Place at{0, 0, z};
+    for (const auto& [axis, step] : {std::pair(0, 1), {1, 1}, {0, -1}, {1, -1}})
+      for (std::int32_t i = 0; i < width; ++i) {
+        const Vertex from = number.at(at);
+        at[static_cast<std::size_t>(axis)] += step;
+        sum += links[links.between(number.at(at), from)].distance[2];
+      }
+    return sum;
+  };
+  const LatticeField field = solve_lattice_field(nodes, frames, {});
+  for (std::int32_t z = 0; z <= layers; ++z) {
+    EXPECT_NEAR(rise(LatticeLinks(nodes, frames), z), pitch, 0.05);
+    EXPECT_NEAR(rise(field.links, z), 0, 0.1) << "layer " << z;
+  }
 }
 
 }  // namespace

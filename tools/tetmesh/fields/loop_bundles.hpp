@@ -1,7 +1,8 @@
 #pragma once
 // Loops over links with K numbers each, stored so that their sums are read at the speed of memory: K loops along the
 // same links, one for each number, are a bundle. Most loops are bundles, most bundles plain triangles, and of the
-// others nearly all have one step: these are no loops to go along, but counts and sums at their numbers.
+// others nearly all have one step: these are no loops to go along, but counts and sums at their numbers. Where a
+// singularity pierces a triangle, only one number has a loop.
 
 #include <Eigen/Core>
 #include <algorithm>

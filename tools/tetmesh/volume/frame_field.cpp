@@ -14,8 +14,8 @@ constexpr double suggestion_weight = 0.3;
 constexpr double normal_weight = 3;
 // How strongly frames are held while they diffuse, against all links of the node together: little at first, so that far
 // ones reach each other, and more each time.
-constexpr std::array<double, 6> holds = {1e-3, 2.5e-3, 6.3e-3, 0.016, 0.04, 0.1};
-constexpr int frame_sweeps = 10;
+constexpr std::array<double, 10> holds = {3e-4, 6.5e-4, 1.4e-3, 3e-3, 6.5e-3, 0.014, 0.03, 0.065, 0.14, 0.3};
+constexpr int frame_sweeps = 4;
 // The weight of a node's own frame against its links when frames are smoothed: plain means of neighbours may oscillate.
 constexpr double inertia = 0.5;
 

@@ -21,7 +21,8 @@ constexpr double anchor_weight = 20;
 // A surface point holds the lattice if cos(2 pi coordinate), averaged over its neighbours, exceeds anchor_threshold:
 // the more, the stronger, up to full strength at 1. Below the threshold it holds it weakly.
 constexpr double anchor_threshold = 0.3, weakest_anchor = 0.05;
-constexpr int smoothing_sweeps = 20;
+// With 20, organic models have 0.04 % less of the volume in hexes and 0.5 % less of the number.
+constexpr int smoothing_sweeps = 40;
 // Coordinates that are held by this share of the full strength count as whole numbers of rows apart.
 constexpr double least_hold = 0.5;
 // A link along the surface is no step up to the first length, and one step from the second to the third, in sizes.
@@ -138,7 +139,7 @@ void LatticeSolver::measure_degree(std::size_t i) {
   degree_[i] = std::max(degree_[i], 1e-9);
 }
 
-// Changes distances so that they add up to zero around triangles of links around which the frames agree.
+// Changes distances so that they add up to zero around triangles of links.
 void LatticeSolver::correct_curl() {
   std::vector<float> distances, lengths;
   pair_numbers_.resize(links_.size());
@@ -176,11 +177,12 @@ fields::Loops LatticeSolver::triangles() const {
   return loops;
 }
 
-// One loop for each axis of the first node, unless the axis comes back as another one.
+// One loop for each axis of the first node that comes back. Around a singularity that is the one along it: rows in
+// layers across the singularity would wind up it like a screw otherwise, and no hex could be where layers do not meet.
 void LatticeSolver::add_loops(const LinkTriangle& triangle, fields::Loops& loops) const {
-  if (!links_.is_regular(triangle)) return;
   const LatticeLink& to_second = links_[triangle.to_second];
   for (std::size_t k = 0; k < 3; ++k) {
+    if (!links_.comes_back(triangle, k)) continue;
     loops.add_step(number_of(triangle.to_second, k), false);
     loops.add_step(number_of(triangle.onward, to_second.axis[k]), to_second.flipped[k]);
     loops.add_step(number_of(triangle.to_third, k), true);

@@ -65,16 +65,17 @@ std::int64_t LatticeLinks::between(std::int32_t from, std::int32_t to) const {
   return found != links.end() && found->node == to ? nodes_.offsets[from] + (found - links.begin()) : -1;
 }
 
-bool LatticeLinks::is_regular(const LinkTriangle& triangle) const {
+bool LatticeLinks::comes_back(const LinkTriangle& triangle, std::size_t axis) const {
   const LatticeLink &to_second = links_[triangle.to_second], &to_third = links_[triangle.to_third],
                     &onward = links_[triangle.onward];
   if (std::min({to_second.weight, onward.weight, to_third.weight}) <= 0) return false;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t there = to_second.axis[k];
-    if (onward.axis[there] != to_third.axis[k]) return false;
-    if ((to_second.flipped[k] != onward.flipped[there]) != to_third.flipped[k]) return false;
-  }
-  return true;
+  const std::size_t there = to_second.axis[axis];
+  return onward.axis[there] == to_third.axis[axis] &&
+         (to_second.flipped[axis] != onward.flipped[there]) == to_third.flipped[axis];
+}
+
+bool LatticeLinks::is_regular(const LinkTriangle& triangle) const {
+  return comes_back(triangle, 0) && comes_back(triangle, 1) && comes_back(triangle, 2);
 }
 
 }  // namespace hexpipe::tetmesh::volume

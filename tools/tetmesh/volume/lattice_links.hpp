@@ -61,7 +61,10 @@ class LatticeLinks {
       }
     });
   }
-  // Whether the axes are the same ones again after a walk around the triangle, which no frame singularity pierces then.
+  // Whether the first node's axis is the same one again after a walk around the triangle, and runs the same way. Where
+  // a singularity of the frames pierces the triangle, the axis along the singularity still is.
+  bool comes_back(const LinkTriangle& triangle, std::size_t axis) const;
+  // Whether all axes come back, so that no singularity pierces the triangle.
   bool is_regular(const LinkTriangle& triangle) const;
 
  private:
