@@ -317,6 +317,14 @@ TEST(Smooth, HexesGrowAndTheRestStaysGoodEnough) {
   EXPECT_GT(thinner, 0);
 }
 
+// What is beside the hexes is flat.
+auto make_flat_lattice(double most_jitter, Random& random) {
+  auto lattice = make_lattice(5);
+  jitter(lattice, most_jitter, random);
+  for (Vec3& at : lattice.mesh.points) at.x *= 4;
+  return lattice;
+}
+
 // Pyramids and tets beside them become better at the cost of hexes, but not below what findhex asks of these.
 TEST(Smooth, HexesKeepAScaledJacobianOfThreeTenths) {
   double least = 1;
@@ -324,9 +332,7 @@ TEST(Smooth, HexesKeepAScaledJacobianOfThreeTenths) {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    auto lattice = make_lattice(5);
-    jitter(lattice, 0.2, random);
-    for (Vec3& at : lattice.mesh.points) at.x *= 4;  // so that what is beside the hexes is flat
+    const auto lattice = make_flat_lattice(0.2, random);
     IndependentSet chosen = random_choice(lattice, 0.6, random);
     std::erase_if(chosen, [&](std::int32_t c) {
       const auto corners = corner_points(lattice.mesh.points, lattice.cubes.vertices[c]);
@@ -347,9 +353,7 @@ TEST(Smooth, PrismsKeepAScaledJacobianOfThreeTenths) {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    auto lattice = make_lattice(5);
-    jitter(lattice, 0.15, random);
-    for (Vec3& at : lattice.mesh.points) at.x *= 4;
+    const auto lattice = make_flat_lattice(0.15, random);
     MixedMesh mesh =
         assemble::assemble(lattice.mesh, lattice.cubes, random_choice(lattice, 0.7, random), {.smooth = 0}).mesh;
     untangle(mesh, 20);

@@ -15,9 +15,7 @@
 namespace hexpipe::assemble::gap {
 namespace {
 
-// As in smoothing (shape/smoother.cpp): chosen cells are not pressed below that, and a hex counts as another cell of
-// half its quality.
-constexpr double least_hex = least_hex_quality, least_prism = least_prism_quality;
+// As in smoothing (shape/smoother.cpp): a hex counts as another cell of half its quality.
 constexpr double hex_weight = 0.5;
 constexpr int steps_to_make_room = 6;
 // Of raise_with_neighbours(), which goes on in small steps: with least_rise a tet on bridge ends at 0.1193. With 1e-4
@@ -69,13 +67,13 @@ void Patch::take(std::span<const Vertex> moving, const Replacement& replacement)
   for (const KeptIndex c : kept_) {
     if (std::ranges::find(replacement.gone, c) != replacement.gone.end()) continue;
     const KeptCell& cell = gap_.kept_cell(c);
-    const double floor = cell.kind == CellKind::hex ? least_hex : least_prism;
+    const double floor = cell.kind == CellKind::hex ? least_hex_quality : least_prism_quality;
     add({cell.kind, true, 0, std::min(floor, quality_of(cell.kind, gap_.points(), cell.vertices())), {}},
         cell.vertices());
     for (const VertexMerge& merge : replacement.merges)
       std::ranges::replace(cells_.back().corners, merge.from, merge.into);
   }
-  for (const KeptCell& cell : replacement.come) add({cell.kind, true, 0, least_hex, {}}, cell.vertices());
+  for (const KeptCell& cell : replacement.come) add({cell.kind, true, 0, least_hex_quality, {}}, cell.vertices());
   for (const Cell& cell : cells_) vertices_.insert(vertices_.end(), cell.vertices().begin(), cell.vertices().end());
   vertices_.insert(vertices_.end(), moving.begin(), moving.end());
   sort_unique(vertices_);
@@ -111,9 +109,8 @@ void Patch::look_around(std::size_t i) {
     const auto at = corner_points(points_, cell.vertices());
     const auto own = static_cast<int>(std::ranges::find(cell.vertices(), moving_[i]) - cell.vertices().begin());
     shape::CornerRules rules;
-    if (cell.kind == CellKind::hex)
-      rules = {.weight = hex_weight, .share = 1 / (hex_weight * hex_weight), .floor = least_hex};
-    if (cell.is_kept && cell.kind == CellKind::prism) rules = {.floor = least_prism};
+    if (cell.kind == CellKind::hex) rules = shape::rules_of_hex(hex_weight);
+    if (cell.is_kept && cell.kind == CellKind::prism) rules = {.floor = least_prism_quality};
     star_.add(cell.kind, std::span<const Vec3>(at).first(cell.vertices().size()), own, rules);
   }
 }

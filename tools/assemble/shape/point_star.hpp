@@ -8,6 +8,7 @@
 
 #include "common/mesh/cell_topology.hpp"
 #include "common/mesh/lanes.hpp"
+#include "common/mesh/quality.hpp"
 #include "common/mesh/vec3.hpp"
 
 namespace hexpipe::assemble::shape {
@@ -19,6 +20,11 @@ struct CornerRules {
   double enough = 1;  // the mean counts higher values as this one
   double floor = -1;  // keep_floors() lets no value fall below this
 };
+
+// A hex has a larger share in the mean, as its weight makes it the worst sooner.
+constexpr CornerRules rules_of_hex(double weight) {
+  return {.weight = weight, .share = 1 / (weight * weight), .floor = least_hex_quality};
+}
 
 // The corners of elements whose scaled Jacobian depends on one vertex, and a pull on this vertex. A corner at o with
 // edges to a, b, c has det(a-o, b-o, c-o) / (|a-o| |b-o| |c-o|); for a tet times the square root of 2, so that the

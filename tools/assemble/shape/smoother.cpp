@@ -70,7 +70,7 @@ void Smoother::look_around(Vertex v) {
 CornerRules Smoother::rules_of(CellKind kind) const {
   switch (kind) {
     case CellKind::hex:
-      return {.weight = weights_.hex, .share = 1 / (weights_.hex * weights_.hex), .floor = least_hex_quality};
+      return rules_of_hex(weights_.hex);
     case CellKind::prism:
       return {.weight = weights_.prism, .enough = good_prism, .floor = least_prism_quality};
     default:
@@ -233,8 +233,7 @@ bool Smoother::improve(Vertex v, double only_below, bool weighted, double goal, 
 }
 
 void untangle(MixedMesh& mesh, int rounds, const SlidingSurface* sliding) {
-  // Hexes below 0.16 and others below 0.04: more than poor, so that the neighbours' moves do not undo
-  // it.
+  // Hexes below 0.16 and others below 0.04: more than poor, so that the neighbours' moves do not undo it.
   constexpr double enough = 0.04;
   Smoother smoother(mesh, sliding, {.hex = hex_weight_of_poor});
   for (int round = 0; round < rounds && smoother.round(enough, true) > 0; ++round) continue;
