@@ -84,6 +84,23 @@ TEST(Octahedral, MeanOfTwoNearFramesLiesBetween) {
   EXPECT_GT(cosine_to(mean, {0, 0, 1}), 1 - 1e-9);
 }
 
+TEST(Octahedral, NoSmallTurnOfTheNearestFrameIsNearer) {
+  Random random(5);
+  const auto value_of = [](const Harmonics& function, const Frame& frame) {
+    return value_at(function, frame[0]) + value_at(function, frame[1]) + value_at(function, frame[2]);
+  };
+  for (int i = 0; i < 100; ++i) {
+    const Harmonics function = 2 * harmonics_of(random_frame(random)) + harmonics_of(random_frame(random));
+    const Frame frame = nearest_frame(function);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const double angle : {-0.01, 0.01}) {
+        const Vec3 &u = frame[k], &v = frame[(k + 1) % 3], &w = frame[(k + 2) % 3];
+        const Frame turned{u, std::cos(angle) * v + std::sin(angle) * w, std::cos(angle) * w - std::sin(angle) * v};
+        EXPECT_LT(value_of(function, turned), value_of(function, frame));
+      }
+  }
+}
+
 TEST(Octahedral, TheCrossChangesSignByEighthsOfATurn) {
   Random random(3);
   const Frame frame = random_frame(random);

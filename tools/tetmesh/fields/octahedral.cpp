@@ -13,31 +13,57 @@ constexpr double c2 = 1.1180339887498949;   // sqrt(5) / 2
 constexpr double c1 = 0.79056941504209488;  // sqrt(5 / 2) / 2
 constexpr double c0 = 0.125;
 
-// The gradient of the function as a homogeneous polynomial of degree 4.
-Vec3 gradient_at(const Harmonics& a, const Vec3& d) {
-  const double x = d.x, y = d.y, z = d.z, xx = x * x, yy = y * y, zz = z * z;
-  Vec3 g{};
-  const double m4 = c4 * a[0];
-  g += m4 * Vec3{y * (3 * xx - yy), x * (xx - 3 * yy), 0};
-  const double m3 = c3 * a[1];
-  g += m3 * Vec3{6 * x * y * z, 3 * (xx - yy) * z, y * (3 * xx - yy)};
-  const double m2 = c2 * a[2];
-  g += m2 * Vec3{y * (6 * zz - 3 * xx - yy), x * (6 * zz - xx - 3 * yy), 12 * x * y * z};
-  const double m1 = c1 * a[3];
-  g += m1 * Vec3{-6 * x * y * z, z * (4 * zz - 3 * xx - 9 * yy), y * (12 * zz - 3 * xx - 3 * yy)};
-  const double p0 = c0 * a[4];
-  const double rr = xx + yy;
-  g += p0 * Vec3{x * (12 * rr - 48 * zz), y * (12 * rr - 48 * zz), z * (32 * zz - 48 * rr)};
-  const double p1 = c1 * a[5];
-  g += p1 * Vec3{z * (4 * zz - 9 * xx - 3 * yy), -6 * x * y * z, x * (12 * zz - 3 * xx - 3 * yy)};
-  const double p2 = c2 / 2 * a[6];
-  g += p2 * Vec3{x * (12 * zz - 4 * xx), y * (4 * yy - 12 * zz), 12 * z * (xx - yy)};
-  const double p3 = c3 * a[7];
-  g += p3 * Vec3{3 * (xx - yy) * z, -6 * x * y * z, x * (xx - 3 * yy)};
-  const double p4 = c4 / 4 * a[8];
-  g += p4 * Vec3{4 * x * (xx - 3 * yy), 4 * y * (yy - 3 * xx), 0};
-  return g;
+// A coordinate of all three axes of a frame; the fourth is zero.
+using Lanes = Eigen::Array4d;
+
+// Vectors, one for each axis of a frame.
+struct LaneVectors {
+  Lanes x, y, z;
+};
+
+LaneVectors lanes_of(const Frame& f) {
+  return {{f[0].x, f[1].x, f[2].x, 0}, {f[0].y, f[1].y, f[2].y, 0}, {f[0].z, f[1].z, f[2].z, 0}};
 }
+
+Frame frame_of(const LaneVectors& lanes) {
+  Frame frame;
+  for (int i = 0; i < 3; ++i) frame[static_cast<std::size_t>(i)] = {lanes.x[i], lanes.y[i], lanes.z[i]};
+  return frame;
+}
+
+// The function as a homogeneous polynomial of degree 4, by its coefficients: x3y is that of x x x y.
+class Quartic {
+ public:
+  explicit Quartic(const Harmonics& a)
+      : x4(3 * c0 * a[4] - c2 / 2 * a[6] + c4 / 4 * a[8]),
+        y4(3 * c0 * a[4] + c2 / 2 * a[6] + c4 / 4 * a[8]),
+        z4(8 * c0 * a[4]),
+        x3y(c4 * a[0] - c2 * a[2]),
+        xy3(-c4 * a[0] - c2 * a[2]),
+        x3z(c3 * a[7] - 3 * c1 * a[5]),
+        xz3(4 * c1 * a[5]),
+        y3z(-c3 * a[1] - 3 * c1 * a[3]),
+        yz3(4 * c1 * a[3]),
+        x2y2(6 * c0 * a[4] - 1.5 * c4 * a[8]),
+        x2z2(3 * c2 * a[6] - 24 * c0 * a[4]),
+        y2z2(-3 * c2 * a[6] - 24 * c0 * a[4]),
+        x2yz(3 * c3 * a[1] - 3 * c1 * a[3]),
+        xy2z(-3 * c3 * a[7] - 3 * c1 * a[5]),
+        xyz2(6 * c2 * a[2]) {}
+
+  LaneVectors gradient_at(const LaneVectors& d) const {
+    const Lanes xx = d.x * d.x, yy = d.y * d.y, zz = d.z * d.z, xyz = d.x * d.y * d.z;
+    return {xx * (4 * x4 * d.x + 3 * x3y * d.y + 3 * x3z * d.z) + yy * (2 * x2y2 * d.x + xy3 * d.y + xy2z * d.z) +
+                zz * (2 * x2z2 * d.x + xyz2 * d.y + xz3 * d.z) + 2 * x2yz * xyz,
+            xx * (x3y * d.x + 2 * x2y2 * d.y + x2yz * d.z) + yy * (3 * xy3 * d.x + 4 * y4 * d.y + 3 * y3z * d.z) +
+                zz * (xyz2 * d.x + 2 * y2z2 * d.y + yz3 * d.z) + 2 * xy2z * xyz,
+            xx * (x3z * d.x + x2yz * d.y + 2 * x2z2 * d.z) + yy * (xy2z * d.x + y3z * d.y + 2 * y2z2 * d.z) +
+                zz * (3 * xz3 * d.x + 3 * yz3 * d.y + 4 * z4 * d.z) + 2 * xyz2 * xyz};
+  }
+
+ private:
+  double x4, y4, z4, x3y, xy3, x3z, xz3, y3z, yz3, x2y2, x2z2, y2z2, x2yz, xy2z, xyz2;
+};
 
 double value_of(const Harmonics& function, const Frame& frame) {
   return value_at(function, frame[0]) + value_at(function, frame[1]) + value_at(function, frame[2]);
@@ -53,6 +79,17 @@ Frame rotated(const Frame& frame, const Vec3& rotation) {
   for (std::size_t i = 0; i < 3; ++i)
     turned[i] = cosine * frame[i] + sine * cross(axis, frame[i]) + (1 - cosine) * dot(axis, frame[i]) * axis;
   return turned;
+}
+
+// Rotates around the vector by 2 atan(length / 2), which is close to the length while that is short and needs no sine
+// (Cayley's map).
+void rotate_by_cayley(LaneVectors& v, const Vec3& rotation) {
+  const Vec3 h = 0.5 * rotation;
+  const double scale = 2 / (1 + dot(h, h));
+  const Lanes x = h.y * v.z - h.z * v.y, y = h.z * v.x - h.x * v.z, z = h.x * v.y - h.y * v.x;
+  v.x += scale * (x + h.y * z - h.z * y);
+  v.y += scale * (y + h.z * x - h.x * z);
+  v.z += scale * (z + h.x * y - h.y * x);
 }
 
 void orthonormalize(Frame& frame) {
@@ -93,22 +130,21 @@ Frame climb_to_frame(const Harmonics& function, const Frame& start) {
   constexpr double curvature = 8 / 1.2, longest_step = 0.35, close_enough = 1e-4;
   constexpr int most_steps = 40;
   const double greatest = std::sqrt(function.squaredNorm() * frame_norm_squared);
-  Frame frame = start;
-  if (greatest == 0) return frame;
+  if (greatest == 0) return start;
+  const Quartic quartic(function);
+  LaneVectors axes = lanes_of(start);
   for (int step = 0; step < most_steps; ++step) {
-    Vec3 torque;
-    double value = 0;
-    for (const Vec3& axis : frame) {
-      const Vec3 gradient = gradient_at(function, axis);
-      value += dot(gradient, axis) / 4;  // Euler's theorem for degree 4
-      torque += cross(axis, gradient);
-    }
+    const LaneVectors g = quartic.gradient_at(axes);
+    const double value = (g.x * axes.x + g.y * axes.y + g.z * axes.z).sum() / 4;  // Euler's theorem for degree 4
+    const Vec3 torque{(axes.y * g.z - axes.z * g.y).sum(), (axes.z * g.x - axes.x * g.z).sum(),
+                      (axes.x * g.y - axes.y * g.x).sum()};
     Vec3 rotation = torque * (1 / (curvature * std::max(value, 0.4 * greatest)));
     const double angle = norm(rotation);
     if (angle > longest_step) rotation *= longest_step / angle;
-    frame = rotated(frame, rotation);
+    rotate_by_cayley(axes, rotation);
     if (angle < close_enough) break;
   }
+  Frame frame = frame_of(axes);
   orthonormalize(frame);
   return frame;
 }
