@@ -47,8 +47,8 @@ struct Bar {
   FieldNodes nodes;
   std::vector<tetmesh::fields::Frame> frames;
 
-  // Sizes grow by a quarter from one end to the other.
-  Bar() {
+  // Sizes grow evenly from one end to the other.
+  Bar(double first_size, double last_size) {
     std::vector<testing::Place> places = testing::places_up_to({length, height, height});
     std::ranges::stable_partition(places, [](const testing::Place& at) { return !is_inside(at); });
     std::map<testing::Place, Vertex> number;
@@ -63,12 +63,23 @@ struct Bar {
     nodes = testing::nodes_on(mesh, adjacency);
     nodes.triangles = mesh.triangles;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      nodes.sizes[i] = 1 + 0.25 * places[i][0] / length;
+      nodes.sizes[i] = first_size + (last_size - first_size) * places[i][0] / length;
       if (!is_inside(places[i])) nodes.surface.push_back(node_at(places[i]));
     }
     frames.assign(mesh.points.size(), {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   }
   Bar(const Bar&) = delete;
+
+  // Steps of the lattice from the bottom to the top.
+  double rows_above(const LatticeField& field, double x, double y) const {
+    double rows = 0;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.points.size()); ++i)
+      for (const LatticeLink& link : field.links.of(static_cast<std::size_t>(i))) {
+        const Vec3 &p = mesh.points[i], way = mesh.points[link.neighbour] - p;
+        if (p.x == x && p.y == y && way.x == 0 && way.y == 0 && way.z == 1) rows += std::abs(link.distance[2]);
+      }
+    return rows;
+  }
 
  private:
   static bool is_inside(const testing::Place& at) {
@@ -86,7 +97,7 @@ struct Bar {
 
 // By the sizes alone, rows would slope: three of them at one end, and 2.4 at the other.
 TEST(LatticeField, HasLayersAlongFaces) {
-  const Bar bar;
+  const Bar bar(1, 1.25);
   const LatticeField field = solve_lattice_field(bar.nodes, bar.frames, std::vector<bool>(bar.nodes.surface.size()));
   for (const Triangle& triangle : bar.mesh.triangles)
     for (std::size_t side = 0; side < 3; ++side) {
@@ -99,16 +110,15 @@ TEST(LatticeField, HasLayersAlongFaces) {
         EXPECT_NEAR(field.links[field.links.between(i, j)].distance[k], 0, 0.03) << i << ", " << j;
       }
     }
-  const auto rows_at = [&](double x) {
-    double rows = 0;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(bar.mesh.points.size()); ++i)
-      for (const LatticeLink& link : field.links.of(static_cast<std::size_t>(i))) {
-        const Vec3 &p = bar.mesh.points[i], way = bar.mesh.points[link.neighbour] - p;
-        if (p.x == x && p.y == 1 && way.x == 0 && way.y == 0 && way.z == 1) rows += std::abs(link.distance[2]);
-      }
-    return rows;
-  };
-  EXPECT_NEAR(rows_at(0), rows_at(length), 0.25);
+  EXPECT_NEAR(bar.rows_above(field, 0, 1), bar.rows_above(field, length, 1), 0.25);
+}
+
+// By its size, the bar is 3.45 rows high. No point of its faces is held, only that each face is a layer.
+TEST(LatticeField, HasWholeNumbersOfRowsBetweenFaces) {
+  const Bar bar(height / 3.45, height / 3.45);
+  const LatticeField field = solve_lattice_field(bar.nodes, bar.frames, std::vector<bool>(bar.nodes.surface.size()));
+  for (int x = 0; x <= length; ++x)
+    for (int y = 0; y <= height; ++y) EXPECT_NEAR(bar.rows_above(field, x, y), 3, 0.01) << x << ", " << y;
 }
 
 // Frames that turn by a right angle around an upright line in a block. The axes along the line lean, so that a walk
