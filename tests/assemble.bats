@@ -66,7 +66,7 @@ assert eval(sys.argv[2]), (sys.argv[2], s)" "$(stats_of "$1")" "$2"
 # bats test_tags=optimized
 @test "--exchange lets hexes give way to others: fewer quads face tets, fewer pyramids" {
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
-  tetmesh "$DATA/bracket.stl" --size 6 | findhex | buildgraph | initsol --iterations 20000 -o bracket.tar
+  tetmesh "$DATA/bracket.stl" --size 9 | findhex | buildgraph | initsol --iterations 20000 -o bracket.tar
   # Merging and prisms take pyramids away afterwards, and so hide how many each choice needs.
   assemble bracket.tar --merge none --fill none --exchange none --stats none.json -o none.vtu
   assemble bracket.tar --merge none --fill none -v --stats quads.json -o quads.vtu 2>summary
@@ -156,7 +156,7 @@ PYTHON
 # bats test_tags=optimized
 @test "--mend finite-volumes leaves less that checkMesh counts as wrong; it is the default for OpenFOAM alone" {
   if ! command -v tetmesh; then skip "tetmesh makes the part"; fi
-  tetmesh "$DATA/bracket.stl" --size 3.5 | findhex | buildgraph | initsol --iterations 20000 -o part.tar
+  tetmesh "$DATA/bracket.stl" --size 3.3 | findhex | buildgraph | initsol --iterations 20000 -o part.tar
   assemble part.tar --stats default.json -o default.vtu
   assemble part.tar --mend quality -o quality.vtu
   assert_same_bytes default.vtu quality.vtu

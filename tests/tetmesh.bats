@@ -956,12 +956,12 @@ PYTHON
 # bats test_tags=optimized
 @test "--improve finds points that become more hexes" {
   local part="$DATA/bracket.stl" threads kind rounds=12
-  tetmesh -q "$part" --size 10.5 -o plain.mesh
+  tetmesh -q "$part" --size 10.2 -o plain.mesh
   for threads in 1 2; do
-    tetmesh -q "$part" --size 10.5 --improve $rounds --threads $threads -o improved$threads.mesh --stats stats.json
+    tetmesh -q "$part" --size 10.2 --improve $rounds --threads $threads -o improved$threads.mesh --stats stats.json
   done
   assert_same_bytes improved1.mesh improved2.mesh
-  run --separate-stderr tetmesh -v "$part" --size 10.5 --improve 2 -o two.mesh
+  run --separate-stderr tetmesh -v "$part" --size 10.2 --improve 2 -o two.mesh
   assert_regex "$stderr" "tetmesh: [0-9]+ changes in 2 rounds: about [0-9.]+ % in hexes, in place of [0-9.]+"
   holds 'stats["improved"]["rounds"] == 12 and stats["improved"]["changes"] > 10' stats.json
   holds 'stats["improved"]["estimated_hex_share"] > stats["improved"]["estimated_hex_share_before"] + 0.005' stats.json

@@ -119,7 +119,7 @@ TEST(SurfaceCurl, StretchesRowsBetweenThePointsOfFeatures) {
     if (mesh.is_kept(v)) kept.push_back(v.idx());
   const FieldSurface surface(mesh, 1);
   const CrossField field = cross_field(surface);
-  const SurfaceLattice lattice = surface_lattice({surface, field, {}, kept}, kept, 0, {});
+  const SurfaceLattice lattice = surface_lattice({surface, field, {}, kept}, kept, {}, {});
   ASSERT_EQ(lattice.spacing.size(), surface.triangles.size());
   std::array<double, 2> sum{}, area{};  // below, above
   for (std::size_t f = 0; f < surface.triangles.size(); ++f) {

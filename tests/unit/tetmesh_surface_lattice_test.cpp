@@ -40,7 +40,7 @@ struct Prepared {
         surface(mesh, size),
         opposite(knows_sides ? opposite_sides(surface) : std::vector<OppositeSide>()),
         field(cross_field(surface, opposite)),
-        points(surface_lattice({surface, field, opposite, kept}, kept, 0, {}).points) {}
+        points(surface_lattice({surface, field, opposite, kept}, kept, {}, {}).points) {}
 
   static FeatureMesh mesh_of(const Surface& whole, double size) {
     FeatureMesh mesh(whole, 40);
@@ -84,6 +84,21 @@ TEST(SurfaceLattice, SpreadsWhatDoesNotFit) {
   }
   EXPECT_GT(on_top, 10u);
   EXPECT_EQ(in_rows, on_top);
+}
+
+// 3.6 sizes lie between the sides of a block and a square in the middle of its top.
+TEST(SurfaceLattice, WholeNumbersOfRowsBetweenFeaturesDoNotEnd) {
+  constexpr double width = 12.9, height = 6, margin = width * 5 / 18;
+  Surface block = surface_of(box({0, 0, 0}, {width, width, height}, 18));
+  const auto is_middle = [](double x) { return x > margin && x < width - margin; };
+  testing::tag_where(block, 2, [&](const Vec3& c) { return c.z > height - 0.1 && is_middle(c.x) && is_middle(c.y); });
+  const Prepared prepared(block, 1, false);
+  const auto row_ends = [&](bool are_whole) {
+    const CorrectedLinks links(prepared.surface, prepared.field, {}, prepared.kept);
+    return surface_lattice(links, prepared.kept, {.are_whole = are_whole}, {}).row_ends;
+  };
+  EXPECT_EQ(row_ends(true), 0);
+  EXPECT_GT(row_ends(false), 0);
 }
 
 // A plate nine sizes wide whose tags meet along the middle of its top, half a size off the rows below.

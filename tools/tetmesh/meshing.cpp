@@ -40,7 +40,8 @@ constexpr double clear_lead = 0.01;
 
 // The surface follows the lattice inside where the mean wall is at least this many sizes thick; with the size that
 // tetmesh chooses, it has two. In thinner walls the surface knows more: on plate-holes, of one and a half sizes, 77.6 %
-// of the cells are hexes if it follows, 85.9 if not.
+// of the cells are hexes if it follows, 85.9 if not. Its rows end where they fall there: whole numbers of them between
+// features bend rows on one side of a wall off those on the other.
 constexpr double least_wall_to_follow = 1.9;
 
 // Adds the seconds since the last call, or since the start, to a step.
@@ -89,6 +90,9 @@ class Mesher {
   void place_points();
   void try_frame_points();
   bool follow(volume::FrameLattice& lattice);
+  bool has_thick_walls() const {
+    return sizing::mean_wall_thickness(given_) >= least_wall_to_follow * size_.greatest();
+  }
   void describe(const volume::FramePoints& frame);
   void describe(const volume::Dislocations& lines);
   // A mesh, the hexes that are likely in it, and the surface that it fills.
@@ -173,7 +177,11 @@ bool Mesher::mesh_new_surface() {
 // TetGen works on the new surface while this thread judges that surface. TetGen may fail on the new surface and not on
 // the given one, because their points differ.
 std::string Mesher::remesh(const solid::Surface& shape) {
-  surface::RemeshOptions options{size_, options_.feature_angle, options_.deviation, {}, options_.row_stretch};
+  surface::RemeshOptions options{size_,
+                                 options_.feature_angle,
+                                 options_.deviation,
+                                 {},
+                                 {.stretch = options_.row_stretch, .are_whole = has_thick_walls()}};
   // A deviation in sizes is small beside the model, unless a wall is thinner than a size: then the wall's thickness
   // counts.
   if (!demand_.layers && !surface::asks_for_too_many_points(given_, size_)) {
@@ -297,7 +305,7 @@ void Mesher::try_frame_points() {
 bool Mesher::follow(volume::FrameLattice& lattice) {
   const Step step(nullptr, frames_end, fit_ends);
   bool follows = false;
-  if (statistics_.remeshed && sizing::mean_wall_thickness(given_) >= least_wall_to_follow * size_.greatest()) {
+  if (statistics_.remeshed && has_thick_walls()) {
     lattice.fit(remeshed_->on_feature);
     watch_.add_to(statistics_.seconds.placing);
     remesher_->follow(lattice.guide());

@@ -31,7 +31,7 @@ struct TetmeshOptions {
   double feature_angle = default_feature_angle;
   double deviation = surface::RemeshOptions{}.deviation;      // in sizes, or in the thickness of thinner walls
   double short_features = 0;                                  // in sizes; those up to this go
-  double row_stretch = surface::RemeshOptions{}.row_stretch;  // in sizes
+  double row_stretch = surface::RowOptions{}.stretch;  // in sizes
   PointKind points = PointKind::best;
   formats::PointList given_points = {};  // for PointKind::given
   double clearance = volume::LatticeOptions{}.clearance;

@@ -244,8 +244,8 @@ void SurfaceFront::take_if_free(const SizedPoint& point, const Outlook& outlook,
 }  // namespace
 
 FrontPoints surface_front(const CorrectedLinks& links, std::span<const Vertex> kept, const sizing::SizeField& size,
-                          double row_stretch, const RowGuide& guide) {
-  const SurfaceLattice lattice = surface_lattice(links, kept, row_stretch, guide);
+                          const RowOptions& rows, const RowGuide& guide) {
+  const SurfaceLattice lattice = surface_lattice(links, kept, rows, guide);
   return {SurfaceFront(links.links.surface, links.links.field, size).run(lattice, kept, guide.points),
           lattice.row_ends};
 }

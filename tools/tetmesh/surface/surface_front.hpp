@@ -16,9 +16,9 @@ struct FrontPoints {
   std::int64_t row_ends = 0;  // of the lattice, on faces
 };
 
-// `kept` holds the vertices of the surface that are points already: those of its feature curves. `row_stretch`: see
-// surface_lattice.hpp, and for `guide`.
+// `kept` holds the vertices of the surface that are points already: those of its feature curves. `rows` and `guide`:
+// see surface_lattice.hpp.
 FrontPoints surface_front(const CorrectedLinks& links, std::span<const Vertex> kept, const sizing::SizeField& size,
-                          double row_stretch, const RowGuide& guide);
+                          const RowOptions& rows, const RowGuide& guide);
 
 }  // namespace hexpipe::tetmesh::surface

@@ -193,21 +193,21 @@ class LatticeMaker {
     greatest_size_ = std::ranges::max(surface_.sizes);
   }
 
-  SurfaceLattice make(std::span<const Vertex> kept, double row_stretch, const RowGuide& guide) {
+  SurfaceLattice make(std::span<const Vertex> kept, const RowOptions& rows, const RowGuide& guide) {
     weigh_links();
     make_anchors(kept);
     if (guide.coordinates) {
       const std::vector<Phases> known = follow(guide);
       measure_distances(known, least_agreement_of_guide);
-    } else {
+    } else if (rows.are_whole) {
       round_rows();
     }
     PhaseSolver solver(links_, across_, degrees_, targets_);
     phases_ = solver.diffused(pulls_);
     reach_the_rest();
     solver.smooth(phases_, smoothing_sweeps);
-    if (row_stretch > 0) {
-      join_rows(links_, across_, targets_, row_stretch, phases_);
+    if (rows.stretch > 0) {
+      join_rows(links_, across_, targets_, rows.stretch, phases_);
       PhaseSolver(links_, across_, degrees_, targets_).smooth(phases_, sweeps_after_joining);
     }
     if (guide.coordinates) measure_distances(phases_, 0);
@@ -453,9 +453,9 @@ CorrectedLinks::CorrectedLinks(const FieldSurface& surface, const CrossField& fi
   correct_curl(links, kept);
 }
 
-SurfaceLattice surface_lattice(const CorrectedLinks& known, std::span<const Vertex> kept, double row_stretch,
+SurfaceLattice surface_lattice(const CorrectedLinks& known, std::span<const Vertex> kept, const RowOptions& rows,
                                const RowGuide& guide) {
-  return LatticeMaker(known).make(kept, row_stretch, guide);
+  return LatticeMaker(known).make(kept, rows, guide);
 }
 
 }  // namespace hexpipe::tetmesh::surface

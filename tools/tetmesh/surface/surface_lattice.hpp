@@ -48,10 +48,16 @@ struct CorrectedLinks {
   LinksAcross across;
 };
 
-// `kept` are those of the links. `row_stretch` is the most by which the distance between two neighbouring triangles of
-// the field may change, in sizes, to join two rows that would end; 0 joins none. With a guide, the lattice is that of
-// the guide wherever it is certain.
-SurfaceLattice surface_lattice(const CorrectedLinks& known, std::span<const Vertex> kept, double row_stretch,
+struct RowOptions {
+  // The most by which the distance between two neighbouring triangles of the field may change, in sizes, to join two
+  // rows that would end; 0 joins none.
+  double stretch = 0;
+  // Without a guide: whole numbers of rows lie between features that stand apart (fields/whole_rows.hpp).
+  bool are_whole = true;
+};
+
+// `kept` are those of the links. With a guide, the lattice is that of the guide wherever it is certain.
+SurfaceLattice surface_lattice(const CorrectedLinks& known, std::span<const Vertex> kept, const RowOptions& rows,
                                const RowGuide& guide);
 
 }  // namespace hexpipe::tetmesh::surface

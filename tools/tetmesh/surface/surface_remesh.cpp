@@ -88,7 +88,7 @@ class SurfaceRemesher::Work {
         shape_(shape),
         size_(options.size),
         deviation_(options.deviation * options.unit.value_or(options.size)),
-        row_stretch_(options.row_stretch),
+        rows_(options.rows),
         expected_points_(sizing::points_on_surface(shape, size_, most_points)),
         thinned_(thin_if_dense(shape, options.feature_angle)),
         surface_(thinned_ ? *thinned_ : shape),
@@ -129,14 +129,14 @@ class SurfaceRemesher::Work {
     std::vector<Vertex> kept;
     FieldSurface surface;
     FieldAndSides field;
-    double row_stretch;
+    RowOptions rows;
     std::optional<CorrectedLinks> links = {};  // since the first lattice
   };
 
   const solid::Surface& given_;  // from which distances are reported
   const solid::Surface& shape_;  // the given one, or that without its short features
   sizing::SizeField size_, deviation_;
-  double row_stretch_;
+  RowOptions rows_;
   double bulge_ = 1;
   bool is_prepared_ = false;
   double expected_points_;  // on the new surface
@@ -237,15 +237,16 @@ bool SurfaceRemesher::Work::place_points() {
   if (!std::ranges::all_of(field.field.directions, is_place)) return false;
   step.reset();
   step.emplace(nullptr, 0.6, 0.8);
-  carrier_.emplace(prepared_, kept, std::move(field_surface), std::move(field), counts_rows ? row_stretch_ : 0);
+  carrier_.emplace(prepared_, kept, std::move(field_surface), std::move(field),
+                   RowOptions{counts_rows ? rows_.stretch : 0, rows_.are_whole});
   place_front({});
   return true;
 }
 
 void SurfaceRemesher::Work::place_front(const RowGuide& guide) {
-  auto& [mesh, kept, surface, field, row_stretch, links] = *carrier_;
+  auto& [mesh, kept, surface, field, rows, links] = *carrier_;
   if (!links) links.emplace(surface, field.field, field.opposite, kept);
-  const auto [points, row_ends] = surface_front(*links, kept, size_, row_stretch, guide);
+  const auto [points, row_ends] = surface_front(*links, kept, size_, rows, guide);
   insert_points(prepared_, points, snap * size_);
   result.feature_points = count_places(kept);
   result.front_points = points.size();

@@ -18,7 +18,7 @@ struct RemeshOptions {
   double feature_angle = default_feature_angle;
   double deviation = 0.15;                     // the greatest distance of either surface from the other, in units
   std::optional<sizing::SizeField> unit = {};  // nothing: the size
-  double row_stretch = 0;                      // in sizes: surface_lattice.hpp
+  RowOptions rows = {};
 };
 
 struct RemeshResult {
