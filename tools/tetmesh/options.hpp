@@ -29,9 +29,9 @@ struct TetmeshOptions {
   std::vector<AskedSize> asked_sizes = {};  // at surfaces, in bodies and in boxes
   SurfaceKind surface = SurfaceKind::remesh;
   double feature_angle = default_feature_angle;
-  double deviation = surface::RemeshOptions{}.deviation;      // in sizes, or in the thickness of thinner walls
-  double short_features = 0;                                  // in sizes; those up to this go
-  double row_stretch = surface::RowOptions{}.stretch;  // in sizes
+  double deviation = surface::RemeshOptions{}.deviation;  // in sizes, or in the thickness of thinner walls
+  double short_features = 0;                              // in sizes; those up to this go
+  double row_stretch = surface::RowOptions{}.stretch;     // in sizes
   PointKind points = PointKind::best;
   formats::PointList given_points = {};  // for PointKind::given
   double clearance = volume::LatticeOptions{}.clearance;
